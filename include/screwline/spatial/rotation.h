@@ -1,0 +1,31 @@
+#ifndef SCREWLINE_SPATIAL_ROTATION_H
+#define SCREWLINE_SPATIAL_ROTATION_H
+
+#include "screwline/spatial/pose.h"
+
+namespace screwline {
+
+/// [v]x, the matrix with skew(v) u = v x u.
+Matrix3 skew(const Vector3& v);
+
+/// Rotation by `angle` [rad] about the unit vector `axis` (Rodrigues).
+Matrix3 rotationAbout(const Vector3& axis, double angle);
+
+/// Rotation vector (axis times angle, angle in [0, pi]) of R; accurate at 0 and at pi. Inverse of exp(skew(.)).
+Vector3 rotationVector(const Matrix3& R);
+
+/// Angle [rad] in [0, pi] of the rotation R.
+double rotationAngle(const Matrix3& R);
+
+/// Some unit vector perpendicular to the unit vector `axis`; the same for the same input.
+Vector3 anyPerpendicular(const Vector3& axis);
+
+/// Nearest rotation matrix to M (polar decomposition): takes off rounding, not errors of substance.
+Matrix3 orthonormalized(const Matrix3& M);
+
+/// Angle wrapped to (-pi, pi].
+double wrapAngle(double angle);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SPATIAL_ROTATION_H
