@@ -34,7 +34,8 @@ class ModelError : public Exception {
   using Exception::Exception;
 };
 
-/// A request broke its contract. The message names the field, its value and the bound; code() is the answer's error_code.
+/// A request broke its contract. The message names the field, its value and the bound; code() is the answer's
+/// error_code.
 class InputError : public Exception {
  public:
   InputError(ErrorCode code, const std::string& message) : Exception(message), code_(code) {}

@@ -16,9 +16,9 @@ enum class JacobianMethod {
 };
 constexpr int kJacobianMethodCount = 5;
 
-/// Geometric Jacobian, 6 x n [v; w]: velocity of the tip's origin per joint rate, base frame; columns [axis x arm; axis] and [axis; 0]
-/// (Craig, ch. 5; Angeles, ch. 5.2). Writes into J (resized only where its size differs: no allocation when 6 x n already) and returns
-/// X_BT, which it computes on the way.
+/// Geometric Jacobian, 6 x n [v; w]: velocity of the tip's origin per joint rate, base frame; columns [axis x arm;
+/// axis] and [axis; 0] (Craig, ch. 5; Angeles, ch. 5.2). Writes into J (resized only where its size differs: no
+/// allocation when 6 x n already) and returns X_BT, which it computes on the way.
 Pose geometricJacobian(const SerialChain& chain, const ConstVectorRef& q, Matrix6X& J);
 
 /// The same Jacobian by one of five methods that share no code. Base frame, tip origin. Allocates.

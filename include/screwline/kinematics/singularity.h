@@ -25,7 +25,8 @@ struct SingularityCondition {
 struct TaskRank {
   int rank = 0;
   VectorX singular_values;  ///< min(m, n), descending; mixed SI units.
-  MatrixX lost_directions;  ///< k x m, orthonormal rows in task order, base frame: twists that no joint rates give. k = m - rank.
+  MatrixX lost_directions;  ///< k x m, orthonormal rows in task order, base frame: twists that no joint rates give. k =
+                            ///< m - rank.
   MatrixX self_motions;     ///< k x n, orthonormal rows: joint rates that move no task row. k = n - rank.
 };
 
@@ -41,9 +42,9 @@ struct SingularityAnalysis {
   double condition_number = 0.0;  ///< Largest over smallest singular value; kMaxCondition where singular.
   double determinant = 0.0;       ///< NaN where the task Jacobian is not square.
   std::vector<SingularityCondition> conditions;
-  VectorX nearest;                     ///< n; a singular configuration nearest to q, within limits where there is one; empty: none found.
-  double distance = 0.0;               ///< Norm of nearest - q (rad and m mixed); infinite where none was found.
-  std::string nearest_note;            ///< How it was found, and how far it can be trusted.
+  VectorX nearest;  ///< n; a singular configuration nearest to q, within limits where there is one; empty: none found.
+  double distance = 0.0;     ///< Norm of nearest - q (rad and m mixed); infinite where none was found.
+  std::string nearest_note;  ///< How it was found, and how far it can be trusted.
 };
 
 constexpr double kMaxCondition = 1e16;

@@ -17,10 +17,12 @@ struct VelocitySolution {
   double damping = 0.0;   ///< Damping factor lambda used; 0 away from singularities.
 };
 
-/// Least-squares rates: singular value decomposition; where the smallest singular value of the task Jacobian falls below
-/// kDampingThreshold times the largest, damped by lambda^2 growing as it falls (Nakamura & Hanafusa 1986; Maciejewski & Klein 1988), so
-/// that rates stay bounded and continuous. A twist that the arm can still give exactly is given exactly, undamped.
-VelocitySolution solveVelocity(const SerialChain& chain, const ConstVectorRef& q, const Vector6& twist, const Task& task);
+/// Least-squares rates: singular value decomposition; where the smallest singular value of the task Jacobian falls
+/// below kDampingThreshold times the largest, damped by lambda^2 growing as it falls (Nakamura & Hanafusa 1986;
+/// Maciejewski & Klein 1988), so that rates stay bounded and continuous. A twist that the arm can still give exactly is
+/// given exactly, undamped.
+VelocitySolution solveVelocity(const SerialChain& chain, const ConstVectorRef& q, const Vector6& twist,
+                               const Task& task);
 
 constexpr double kDampingThreshold = 1e-3;
 

@@ -8,8 +8,9 @@
 namespace screwline {
 
 /// Constants of one axis in the form that forward kinematics multiplies fastest: from the frame of the axis before,
-/// X = Trans(p) Rx(alpha) Rz(offset + value) for a revolute axis, Trans(p) Rx(alpha) Rz(offset) Tz(value) for a prismatic one.
-/// Any two lines can be joined so; unlike Denavit-Hartenberg parameters, p stays small for axes that are almost parallel.
+/// X = Trans(p) Rx(alpha) Rz(offset + value) for a revolute axis, Trans(p) Rx(alpha) Rz(offset) Tz(value) for a
+/// prismatic one. Any two lines can be joined so; unlike Denavit-Hartenberg parameters, p stays small for axes that are
+/// almost parallel.
 struct AxisKernel {
   Vector3 p = Vector3::Zero();
   double cos_alpha = 1.0;

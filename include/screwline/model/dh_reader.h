@@ -16,15 +16,16 @@ namespace screwline {
 ///     base: {xyz: [0, 0, 0], rpy: [0, 0, 0]}    # optional
 ///     tool: {xyz: [0.1, 0, 0], rpy: [0, 0, 0]}  # optional
 ///
-/// Lengths in m, angles in rad; an angle may be written as a number times pi over a number ("pi/2", "-2*pi/3"). Optional: lower, upper
-/// (needed for revolute and prismatic), velocity, acceleration, jerk. Unknown keys are refused.
+/// Lengths in m, angles in rad; an angle may be written as a number times pi over a number ("pi/2", "-2*pi/3").
+/// Optional: lower, upper (needed for revolute and prismatic), velocity, acceleration, jerk. Unknown keys are refused.
 /// @throws ModelError naming the key and what is wrong with it.
 SerialChain readDhYaml(const std::string& yaml);
 
 /// The same from a file. @throws ModelError also where it cannot be read.
 SerialChain readDhYamlFile(const std::string& path);
 
-/// A plain URDF document of a chain, with simple visuals: what the tool `dh_to_urdf` prints. readUrdf() of it is the same chain.
+/// A plain URDF document of a chain, with simple visuals: what the tool `dh_to_urdf` prints. readUrdf() of it is the
+/// same chain.
 std::string toUrdf(const SerialChain& chain);
 
 }  // namespace screwline

@@ -38,8 +38,8 @@ struct Joint {
   bool isRevolute() const { return type != JointType::kPrismatic; }
 };
 
-/// A joint that moves in the chain, base to tip: an axis at the zero configuration, driven by one degree of freedom. Usually joint i
-/// drives axis i; a mimic joint is one more axis, driven by the joint it mimics.
+/// A joint that moves in the chain, base to tip: an axis at the zero configuration, driven by one degree of freedom.
+/// Usually joint i drives axis i; a mimic joint is one more axis, driven by the joint it mimics.
 struct Axis {
   bool prismatic = false;
   Vector3 direction = Vector3::UnitZ();  ///< Unit vector, base frame, zero configuration.

@@ -16,7 +16,8 @@ struct ModifiedDhRow {
   double theta = 0.0;
 };
 
-/// A chain as base_transform * rows * tool_transform. A joint's value adds to theta (revolute) or d (prismatic) of its row.
+/// A chain as base_transform * rows * tool_transform. A joint's value adds to theta (revolute) or d (prismatic) of its
+/// row.
 struct ModifiedDh {
   std::vector<ModifiedDhRow> rows;
   Pose base_transform;  ///< X_B0: DH frame 0 in the base link.
@@ -26,12 +27,13 @@ struct ModifiedDh {
   Pose link(int i, bool prismatic, double displacement) const;
 };
 
-/// Axes that are closer to parallel than this (sine of the angle) are treated as parallel: their common normal is then chosen.
+/// Axes that are closer to parallel than this (sine of the angle) are treated as parallel: their common normal is then
+/// chosen.
 constexpr double kDhParallelTolerance = 1e-9;
 
-/// The modified-DH table of axes (base frame, zero configuration) and the tip's pose there. Where a convention leaves a choice
-/// (parallel, intersecting, coincident axes, the first and the last frame), the choice with most zeros is taken. Allocates.
-/// The product of the table is the chain to rounding (Craig's frame assignment, ch. 3.4).
+/// The modified-DH table of axes (base frame, zero configuration) and the tip's pose there. Where a convention leaves a
+/// choice (parallel, intersecting, coincident axes, the first and the last frame), the choice with most zeros is taken.
+/// Allocates. The product of the table is the chain to rounding (Craig's frame assignment, ch. 3.4).
 ModifiedDh modifiedDhOf(const std::vector<Axis>& axes, const Pose& home);
 
 /// The axes of a table, in the base frame at the zero configuration, with their types; inverse of modifiedDhOf().

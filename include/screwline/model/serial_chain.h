@@ -11,7 +11,7 @@
 
 namespace screwline {
 
-constexpr int kMaxJoints = 64;  ///< Degrees of freedom, and axes, that a chain may have.
+constexpr int kMaxJoints = 64;         ///< Degrees of freedom, and axes, that a chain may have.
 constexpr double kMaxMagnitude = 1e6;  ///< Numbers beyond it are refused wherever they are read.
 
 /// A link that moves with the chain: after `axis_count` axes, at `home` in the base frame at the zero configuration.
@@ -26,18 +26,20 @@ struct ChainDescription {
   std::string name;
   std::string base_link;
   std::string tip_link;
-  std::vector<Joint> joints;  ///< Degrees of freedom, base to tip.
-  std::vector<Axis> axes;     ///< Base to tip; without mimic joints one per joint.
-  Pose home;                  ///< X_BT at zero.
-  std::vector<Link> links;    ///< Of the chain and rigidly attached to it; the base and tip links included.
+  std::vector<Joint> joints;     ///< Degrees of freedom, base to tip.
+  std::vector<Axis> axes;        ///< Base to tip; without mimic joints one per joint.
+  Pose home;                     ///< X_BT at zero.
+  std::vector<Link> links;       ///< Of the chain and rigidly attached to it; the base and tip links included.
   std::optional<ModifiedDh> dh;  ///< Given where the table was the source; else computed.
 };
 
-/// A serial chain: immutable, validated once, shared by all threads. Its configuration is q (n values: rad, m; base to tip).
+/// A serial chain: immutable, validated once, shared by all threads. Its configuration is q (n values: rad, m; base to
+/// tip).
 class SerialChain {
  public:
-  /// @throws ModelError naming what is wrong: no joint, more than kMaxJoints, repeated or empty names, an axis that is not a unit
-  /// vector, numbers not finite or beyond kMaxMagnitude, lower above upper, limits not positive, an unknown tip link.
+  /// @throws ModelError naming what is wrong: no joint, more than kMaxJoints, repeated or empty names, an axis that is
+  /// not a unit vector, numbers not finite or beyond kMaxMagnitude, lower above upper, limits not positive, an unknown
+  /// tip link.
   explicit SerialChain(ChainDescription description);
 
   const std::string& name() const { return description_.name; }
@@ -56,7 +58,8 @@ class SerialChain {
   bool hasMimic() const { return has_mimic_; }
   const Pose& home() const { return description_.home; }  ///< X_BT at zero.
 
-  /// Screw axes [v; w] of the joints, base frame, zero configuration: 6 x n (a mimic joint's axis is added to its driver's).
+  /// Screw axes [v; w] of the joints, base frame, zero configuration: 6 x n (a mimic joint's axis is added to its
+  /// driver's).
   const Matrix6X& screwAxes() const { return screw_axes_; }
 
   const ChainKernel& kernel() const { return kernel_; }
@@ -68,7 +71,8 @@ class SerialChain {
   /// q clamped into the position limits.
   VectorX clamped(const VectorX& q) const;
 
-  /// A length [m] typical of the chain: the largest distance between neighbouring axes' points and the tip, at least 1e-6.
+  /// A length [m] typical of the chain: the largest distance between neighbouring axes' points and the tip, at least
+  /// 1e-6.
   double characteristicLength() const { return characteristic_length_; }
 
   /// A copy with other tip: `link` must be rigidly beyond the last axis. Used for link_name in inverse kinematics.
@@ -82,7 +86,8 @@ class SerialChain {
   double characteristic_length_ = 0.0;
 };
 
-/// Checks n joint values: size, finite, |q| <= kMaxMagnitude. `field` names the input in the message, as "joint_state.position".
+/// Checks n joint values: size, finite, |q| <= kMaxMagnitude. `field` names the input in the message, as
+/// "joint_state.position".
 /// @throws InputError (kInvalidRobotState)
 void requireConfiguration(const SerialChain& chain, const ConstVectorRef& q, const std::string& field);
 

@@ -8,20 +8,20 @@
 
 namespace screwline {
 
-/// Below these two axes count as parallel (sine of the angle), orthogonal (cosine) or meeting (distance over the chain's
-/// characteristic length): far above the rounding of a URDF's "1.5707963", far below any offset that is meant.
+/// Below these two axes count as parallel (sine of the angle), orthogonal (cosine) or meeting (distance over the
+/// chain's characteristic length): far above the rounding of a URDF's "1.5707963", far below any offset that is meant.
 constexpr double kStructureAngleTolerance = 1e-9;
 constexpr double kStructureLengthTolerance = 1e-9;
 
-/// How two axes (lines for revolute joints, directions for prismatic ones) lie to each other. It does not change as the arm moves where
-/// they are neighbours, or where all axes between them share the property.
+/// How two axes (lines for revolute joints, directions for prismatic ones) lie to each other. It does not change as the
+/// arm moves where they are neighbours, or where all axes between them share the property.
 struct AxisRelation {
   double angle = 0.0;     ///< [rad] in [0, pi/2] between the directions.
   double distance = 0.0;  ///< [m] between the lines; 0 where either axis is prismatic.
   bool parallel = false;
   bool orthogonal = false;
-  bool intersecting = false;  ///< Both revolute, not parallel, the lines meet.
-  bool coincident = false;    ///< Both revolute, the same line.
+  bool intersecting = false;                ///< Both revolute, not parallel, the lines meet.
+  bool coincident = false;                  ///< Both revolute, the same line.
   Vector3 meeting_point = Vector3::Zero();  ///< [m] base frame, zero configuration; only where intersecting.
 };
 
@@ -35,7 +35,8 @@ struct ConcurrentGroup {
   Vector3 center = Vector3::Zero();  ///< [m] base frame, zero configuration.
 };
 
-/// A run of revolute axes that are parallel to each other; prismatic axes between them do not end it (they turn nothing).
+/// A run of revolute axes that are parallel to each other; prismatic axes between them do not end it (they turn
+/// nothing).
 struct ParallelGroup {
   std::vector<int> axes;
   Vector3 direction = Vector3::UnitZ();  ///< Base frame, zero configuration.
@@ -43,10 +44,10 @@ struct ParallelGroup {
 
 /// What a chain's axes share.
 struct Structure {
-  std::vector<AxisRelation> neighbours;   ///< Of axes i and i+1.
-  std::vector<ConcurrentGroup> spherical;  ///< Maximal groups of three or more neighbouring axes.
-  std::vector<ParallelGroup> parallel;     ///< Maximal groups of two or more.
-  bool all_revolute_parallel = false;      ///< A planar arm, prismatic joints apart.
+  std::vector<AxisRelation> neighbours;         ///< Of axes i and i+1.
+  std::vector<ConcurrentGroup> spherical;       ///< Maximal groups of three or more neighbouring axes.
+  std::vector<ParallelGroup> parallel;          ///< Maximal groups of two or more.
+  bool all_revolute_parallel = false;           ///< A planar arm, prismatic joints apart.
   Vector3 common_direction = Vector3::UnitZ();  ///< Of all revolute axes, where all_revolute_parallel.
 };
 

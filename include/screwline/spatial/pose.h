@@ -27,8 +27,12 @@ struct Pose {
   Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
 
-inline Pose operator*(const Pose& X_AB, const Pose& X_BC) { return {X_AB.R * X_BC.R, X_AB.R * X_BC.p + X_AB.p}; }
-inline Vector3 operator*(const Pose& X_AB, const Vector3& p_B) { return X_AB.R * p_B + X_AB.p; }
+inline Pose operator*(const Pose& X_AB, const Pose& X_BC) {
+  return {X_AB.R * X_BC.R, X_AB.R * X_BC.p + X_AB.p};
+}
+inline Vector3 operator*(const Pose& X_AB, const Vector3& p_B) {
+  return X_AB.R * p_B + X_AB.p;
+}
 
 /// True where no entry of position [m] or rotation matrix differs by more than tolerance.
 inline bool isApprox(const Pose& a, const Pose& b, double tolerance) {
