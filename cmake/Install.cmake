@@ -1,6 +1,22 @@
-# Everything a user needs from the install space.
-install(TARGETS screwline_core
+# Everything a user needs from the install space. Who adds a library, a node, a tool or a script adds its name here.
+set(libraries
+  screwline_core
+)
+set(executables
+)
+set(python_scripts
+)
+set(folders launch urdf config)
+
+install(TARGETS ${libraries}
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
-  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
+if(executables)
+  install(TARGETS ${executables} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endif()
+if(python_scripts)
+  catkin_install_python(PROGRAMS ${python_scripts} DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endif()
 install(DIRECTORY include/screwline/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-install(DIRECTORY launch urdf config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(DIRECTORY ${folders} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

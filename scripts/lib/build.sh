@@ -1,0 +1,23 @@
+# shellcheck shell=bash
+# Sourced by the scripts: configuring and building.
+
+# configure DIRECTORY OPTION...
+configure() {
+  local directory=$1
+  shift
+  cmake -S "$ROOT" -B "$directory" -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@"
+}
+
+# build DIRECTORY TARGET...: with all cores, past the first error.
+build() {
+  local directory=$1
+  shift
+  make --no-print-directory -C "$directory" -k -j "$JOBS" "$@"
+}
+
+# One run at a time in a build folder.
+lock_build() {
+  mkdir -p "$BUILD" "$LOGS"
+  exec 9>"$BUILD/.lock"
+  flock --nonblock 9 || { say "waiting for another run in $BUILD"; flock 9; }
+}

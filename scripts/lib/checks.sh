@@ -1,0 +1,64 @@
+# shellcheck shell=bash
+# Sourced by scripts/test: what CI checks besides the tests. Each check_* function fails by its exit status and says why.
+
+check_format() {
+  find "$ROOT" -path "$ROOT/build*" -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format-14 --dry-run -Werror
+}
+
+# A clone may have any name; the path of Eigen is exported by catkin_package(DEPENDS).
+check_catkin_lint() {
+  catkin_lint --offline --strict -W1 --ignore package_path_name --ignore external_interface_path "$ROOT"
+}
+
+check_style() { "$ROOT/scripts/check_style" "$ROOT"; }
+
+check_shell_syntax() {
+  local script
+  for script in "$ROOT"/scripts/{demo,test,fresh} "$ROOT"/scripts/lib/*.sh "$ROOT/.ci/run"; do
+    bash -n "$script" || return 1
+  done
+}
+
+# The core alone builds without catkin, and reads no header of ROS on the way.
+check_core_without_ros() {
+  local directory=$BUILD/core_only
+  configure "$directory" -DSCREWLINE_CORE_ONLY=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O0 || return 1
+  build "$directory" all || return 1
+  local read
+  read=$(find "$directory" \( -name '*.d' -o -name depend.make \) -exec cat {} + | tr ' ' '\n' |
+    grep -E '/(ros|roscpp\w*|rosbag|tf2\w*|\w+_msgs|std_srvs|urdf|message_runtime|xmlrpcpp)/[^/]+\.h(pp)?$|/screwline/([A-Z]\w*\.h|ros/)' | sort -u) || true
+  [[ -z $read ]] || { echo "the core reads:"; echo "$read"; return 1; }
+}
+
+# The file loads with its defaults, and what it names is there.
+check_launch() { (source_ros "$BUILD/devel/setup.bash" && roslaunch_check "$1"); }
+
+roslaunch_check() {
+  local checker
+  for checker in /usr/share/roslaunch/scripts/roslaunch-check "/opt/ros/${ROS_DISTRO:-}/share/roslaunch/scripts/roslaunch-check"; do
+    [[ -e $checker ]] && { /usr/bin/python3 "$checker" -t -i -o "$LOGS/roslaunch_check.xml" "$1"; return; }
+  done
+  echo "no roslaunch-check here"
+  return 1
+}
+
+# What `make install` leaves is enough to ask ROS about the package and to start its nodes and launch files.
+check_install_space() {
+  rm -rf "$BUILD/install"
+  cmake --build "$BUILD" --target install || return 1
+  (source_ros "$BUILD/install/setup.bash" && "$ROOT/scripts/lib/try_install" "$BUILD/install")
+}
+
+# A user's workspace: the sources linked into src/, `catkin_make install`. Debug, so that assertions are compiled too.
+check_catkin_make() {
+  local workspace=$BUILD/workspace
+  rm -rf "$workspace/install"
+  mkdir -p "$workspace/src"
+  ln -sfn "$ROOT" "$workspace/src/screwline"
+  (cd "$workspace" && catkin_make install -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_ENABLE_TESTING=OFF -DCMAKE_BUILD_TYPE=Debug \
+    -DCMAKE_CXX_FLAGS=-O0 -DSCREWLINE_WERROR=ON -j "$JOBS") || return 1
+  (source_ros "$workspace/install/setup.bash" && "$ROOT/scripts/lib/try_install" "$workspace/install")
+}
+
+# The commands of README.md do what it says.
+check_readme() { (source_ros "$BUILD/devel/setup.bash" && "$ROOT/test/readme_snippets"); }
