@@ -14,7 +14,9 @@ inline std::string number(double value) {
 }
 
 /// "name[i]", as a request's field is named.
-inline std::string indexed(const std::string& name, std::size_t i) { return name + "[" + std::to_string(i) + "]"; }
+inline std::string indexed(const std::string& name, std::size_t i) {
+  return name + "[" + std::to_string(i) + "]";
+}
 
 }  // namespace screwline
 

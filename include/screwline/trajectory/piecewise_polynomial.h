@@ -8,8 +8,9 @@
 
 namespace screwline {
 
-/// Exact figures of one joint's motion, in rad (or m) and s. `velocity`, `acceleration` and `jerk` are the largest magnitudes
-/// inside the pieces; a step is the largest jump of the order below at a breakpoint or, where the motion joins rest, at an end.
+/// Exact figures of one joint's motion, in rad (or m) and s. `velocity`, `acceleration` and `jerk` are the largest
+/// magnitudes inside the pieces; a step is the largest jump of the order below at a breakpoint or, where the motion
+/// joins rest, at an end.
 struct JointExtrema {
   Range position;
   double velocity = 0.0;
@@ -17,7 +18,7 @@ struct JointExtrema {
   double jerk = 0.0;
   double velocity_step = 0.0;
   double acceleration_step = 0.0;
-  double travel = 0.0;               ///< Integral of |velocity|.
+  double travel = 0.0;                ///< Integral of |velocity|.
   double squared_acceleration = 0.0;  ///< Integral over time, inside the pieces.
   double squared_jerk = 0.0;          ///< The same.
 
@@ -25,16 +26,16 @@ struct JointExtrema {
   double peak(int order) const;
 };
 
-/// One polynomial per joint and segment, in normalised local time u = (t - breaks[k]) / (breaks[k+1] - breaks[k]): as well
-/// conditioned for 1 ms as for t = 5..7 s. Coefficients lie contiguous as [segment][power][joint], so that one pass over a segment
-/// evaluates all joints. A plain value: builders fill it, JointTrajectory samples it.
+/// One polynomial per joint and segment, in normalised local time u = (t - breaks[k]) / (breaks[k+1] - breaks[k]): as
+/// well conditioned for 1 ms as for t = 5..7 s. Coefficients lie contiguous as [segment][power][joint], so that one
+/// pass over a segment evaluates all joints. A plain value: builders fill it, JointTrajectory samples it.
 struct PiecewisePolynomial {
   int joints = 0;
   int degree = 0;                    ///< Of every piece, at most Polynomial::kMaxDegree.
   std::vector<double> breaks;        ///< [s], segments() + 1 of them, not decreasing, the first 0.
   std::vector<double> coefficients;  ///< segments() * (degree + 1) * joints.
-  int continuity = 0;                ///< Derivatives 0 .. continuity (at most 3) are continuous, joined to rest at the ends.
-  bool starts_at_rest = true;        ///< False: the motion starts in a moving state, so nothing steps at t = 0.
+  int continuity = 0;          ///< Derivatives 0 .. continuity (at most 3) are continuous, joined to rest at the ends.
+  bool starts_at_rest = true;  ///< False: the motion starts in a moving state, so nothing steps at t = 0.
   bool ends_at_rest = true;
 
   PiecewisePolynomial() = default;
@@ -54,20 +55,24 @@ struct PiecewisePolynomial {
   /// Derivative of the given order (0..3) of one joint at an end of a segment, from inside it, with respect to time.
   double atEnd(std::size_t segment, int joint, int order, bool upper_end) const;
 
-  /// Exact extrema, travel and integrals of one joint: closed form from the roots of the derivatives. Does not allocate.
+  /// Exact extrema, travel and integrals of one joint: closed form from the roots of the derivatives. Does not
+  /// allocate.
   JointExtrema extrema(int joint) const;
 
  private:
   std::size_t index(std::size_t segment, int power, int joint) const {
-    return (segment * static_cast<std::size_t>(degree + 1) + static_cast<std::size_t>(power)) * static_cast<std::size_t>(joints) +
+    return (segment * static_cast<std::size_t>(degree + 1) + static_cast<std::size_t>(power)) *
+               static_cast<std::size_t>(joints) +
            static_cast<std::size_t>(joint);
   }
 };
 
-/// Largest jump of a derivative (0..3) of one joint over interior breakpoints and, where the motion joins rest, its ends.
+/// Largest jump of a derivative (0..3) of one joint over interior breakpoints and, where the motion joins rest, its
+/// ends.
 double largestStep(const PiecewisePolynomial& motion, int joint, int order);
 
-/// The first motion, then the second, which starts where the first ends. The result's continuity is the lesser of the two.
+/// The first motion, then the second, which starts where the first ends. The result's continuity is the lesser of the
+/// two.
 PiecewisePolynomial concatenate(const PiecewisePolynomial& first, const PiecewisePolynomial& second);
 
 /// The same way backwards: q'(t) = q(T - t).

@@ -21,7 +21,8 @@ struct Range {
   double peak() const { return upper > -lower ? upper : -lower; }  ///< Largest magnitude.
 };
 
-/// c[0] + c[1] u + ... + c[7] u^7 in the normalised local time u of a segment, u in [0, 1]. No function here allocates or throws.
+/// c[0] + c[1] u + ... + c[7] u^7 in the normalised local time u of a segment, u in [0, 1]. No function here allocates
+/// or throws.
 struct Polynomial {
   static constexpr int kMaxDegree = 7;
   std::array<double, kMaxDegree + 1> c{};
@@ -31,9 +32,9 @@ struct Polynomial {
   Polynomial derivative() const;
 };
 
-/// Every real root in [0, 1], touching ones included (to 1e-13 of the largest coefficient). The critical points of degree d bracket
-/// the roots of degree d, so it descends to the line and climbs back, closing each bracket by safeguarded Newton steps.
-/// The zero polynomial has none.
+/// Every real root in [0, 1], touching ones included (to 1e-13 of the largest coefficient). The critical points of
+/// degree d bracket the roots of degree d, so it descends to the line and climbs back, closing each bracket by
+/// safeguarded Newton steps. The zero polynomial has none.
 Roots rootsInUnitInterval(const Polynomial& polynomial);
 
 /// Least and greatest value over [0, 1]: the ends and the roots of the derivative.

@@ -15,16 +15,16 @@ struct ScalingSample {
   double ddds = 0.0;
 };
 
-/// A time scaling s(tau), tau = t/T in [0, 1], s(0) = 0, s(1) = 1, with exact derivatives: piecewise polynomial or cycloidal.
-/// An immutable value. Sources: Biagiotti & Melchiorri, Trajectory Planning for Automatic Machines and Robots, ch. 2 and 3; the
-/// degree-6 via polynomial is s345(tau) + k tau^3 (1-tau)^3.
+/// A time scaling s(tau), tau = t/T in [0, 1], s(0) = 0, s(1) = 1, with exact derivatives: piecewise polynomial or
+/// cycloidal. An immutable value. Sources: Biagiotti & Melchiorri, Trajectory Planning for Automatic Machines and
+/// Robots, ch. 2 and 3; the degree-6 via polynomial is s345(tau) + k tau^3 (1-tau)^3.
 class TimeScaling {
  public:
-  static TimeScaling rectangular();      ///< Constant velocity: it steps at both ends.
-  static TimeScaling cubic();            ///< Acceleration steps by 6 at both ends.
-  static TimeScaling polynomial345();    ///< Also the minimum-jerk motion; zero acceleration at the ends.
-  static TimeScaling polynomial4567();   ///< Zero acceleration and jerk at the ends.
-  static TimeScaling cycloidal();        ///< tau - sin(2 pi tau) / (2 pi).
+  static TimeScaling rectangular();     ///< Constant velocity: it steps at both ends.
+  static TimeScaling cubic();           ///< Acceleration steps by 6 at both ends.
+  static TimeScaling polynomial345();   ///< Also the minimum-jerk motion; zero acceleration at the ends.
+  static TimeScaling polynomial4567();  ///< Zero acceleration and jerk at the ends.
+  static TimeScaling cycloidal();       ///< tau - sin(2 pi tau) / (2 pi).
   static TimeScaling minimumJerk() { return polynomial345(); }
 
   /// Parabola, line, parabola: acceleration over the fraction b of the time at each end.
@@ -38,19 +38,20 @@ class TimeScaling {
   /// From pieces of one joint with breaks from 0 to 1; the way in for scalings to come.
   explicit TimeScaling(PiecewisePolynomial pieces);
 
-  /// s and derivatives at tau; outside [0, 1] those of the nearer end. At tau = 0 and 1 and at a breakpoint a stepping derivative
-  /// has its value from inside (at an interior breakpoint: of the later piece). Does not allocate.
+  /// s and derivatives at tau; outside [0, 1] those of the nearer end. At tau = 0 and 1 and at a breakpoint a stepping
+  /// derivative has its value from inside (at an interior breakpoint: of the later piece). Does not allocate.
   ScalingSample at(double tau) const;
 
   /// Exact peaks over [0, 1] in units of tau: peak(1), peak(2), peak(3) are C_v, C_a, C_j (v = C_v |delta| / T,
-  /// a = C_a |delta| / T^2, j = C_j |delta| / T^3; infinite where the order below steps), the steps, the range of s, its integrals.
+  /// a = C_a |delta| / T^2, j = C_j |delta| / T^3; infinite where the order below steps), the steps, the range of s,
+  /// its integrals.
   const JointExtrema& extrema() const { return extrema_; }
 
   int continuity() const { return continuity_; }  ///< See PiecewisePolynomial.
   bool isCycloidal() const { return cycloidal_; }
-  bool isMonotone() const;                                      ///< True where s never turns back.
+  bool isMonotone() const;                                       ///< True where s never turns back.
   const PiecewisePolynomial& pieces() const { return pieces_; }  ///< Empty for the cycloidal scaling.
-  std::vector<double> breaks() const;                           ///< tau of the interior breakpoints.
+  std::vector<double> breaks() const;                            ///< tau of the interior breakpoints.
 
  private:
   /// Row k holds the coefficients of u^k in s, s', s'', s''' (by tau), so that one pass gives all four.

@@ -1,0 +1,103 @@
+#ifndef SCREWLINE_TRAJECTORY_JOINT_TRAJECTORY_H
+#define SCREWLINE_TRAJECTORY_JOINT_TRAJECTORY_H
+
+#include <cstddef>
+#include <vector>
+
+#include "screwline/spatial/pose.h"
+#include "screwline/trajectory/piecewise_polynomial.h"
+#include "screwline/trajectory/time_scaling.h"
+
+namespace screwline {
+
+/// Position [rad or m], velocity, acceleration and jerk of every joint (per s, s^2, s^3) at one instant.
+struct TrajectoryPoint {
+  VectorX position;
+  VectorX velocity;
+  VectorX acceleration;
+  VectorX jerk;
+
+  TrajectoryPoint() = default;
+  explicit TrajectoryPoint(int joints)
+      : position(VectorX::Zero(joints)),
+        velocity(VectorX::Zero(joints)),
+        acceleration(VectorX::Zero(joints)),
+        jerk(VectorX::Zero(joints)) {}
+};
+
+/// offset_i + amplitude_i sin(omega_i t + phase_i); rad (or m), rad/s, rad.
+struct Sinusoid {
+  VectorX offset;
+  VectorX amplitude;
+  VectorX omega;
+  VectorX phase;
+};
+
+/// An immutable motion of n joints over [0, duration]. Pure: the same t gives the same answer, nothing is remembered
+/// between calls. Three forms: one scaling for all joints (start + delta s(t/T)), piecewise polynomials, sinusoids.
+/// Outside the interval the ends are held with zero derivatives; at 0 and at the duration derivatives have their values
+/// from inside, at an interior breakpoint those of the later piece.
+class JointTrajectory {
+ public:
+  JointTrajectory() = default;  ///< No joints, no duration.
+
+  /// start + delta s(t / duration). @pre equal sizes, duration >= 0 (at 0 it rests at start).
+  static JointTrajectory scaled(VectorX start, VectorX delta, TimeScaling scaling, double duration);
+  static JointTrajectory piecewise(PiecewisePolynomial motion);
+  /// @pre equal sizes, duration >= 0.
+  static JointTrajectory sinusoidal(Sinusoid motion, double duration);
+
+  int joints() const { return joints_; }
+  double duration() const { return duration_; }  ///< [s]
+
+  /// Derivatives 0 .. continuity (at most 3) are continuous; ends joined to rest count unless the motion starts or ends
+  /// moving.
+  int continuity() const;
+
+  /// Instants inside (0, duration) at which a derivative up to jerk may step: a sampled copy should hold each of them.
+  std::vector<double> corners() const;
+
+  /// State at t [s] into `point`. Allocates only where `point` has not n entries. O(log segments).
+  void sample(double t, TrajectoryPoint& point) const;
+  /// The same into arrays of n doubles. Never allocates.
+  void sample(double t, double* position, double* velocity, double* acceleration, double* jerk) const;
+
+  /// Exact figures of one joint: closed form in every form. Does not allocate.
+  JointExtrema extrema(int joint) const;
+
+  /// The common scaling s(tau), nullptr where the motion has none.
+  const TimeScaling* scaling() const { return form_ == Form::kScaled ? &scaling_ : nullptr; }
+  /// The polynomial pieces, nullptr in the other forms.
+  const PiecewisePolynomial* pieces() const { return form_ == Form::kPiecewise ? &pieces_ : nullptr; }
+
+ private:
+  enum class Form { kPiecewise, kScaled, kSinusoidal };
+
+  void sampleScaled(double t, double* p, double* v, double* a, double* j) const;
+  void samplePieces(double t, double* p, double* v, double* a, double* j) const;
+  void sampleSinusoid(double t, double* p, double* v, double* a, double* j) const;
+  JointExtrema scaledExtrema(int joint) const;
+  JointExtrema sinusoidExtrema(int joint) const;
+
+  Form form_ = Form::kPiecewise;
+  int joints_ = 0;
+  double duration_ = 0.0;
+  double inverse_duration_ = 0.0;  ///< 0 for a motion that takes no time: it rests.
+  VectorX start_;
+  VectorX delta_;
+  TimeScaling scaling_ = TimeScaling::rectangular();
+  PiecewisePolynomial pieces_;
+  std::vector<double> inverse_lengths_;
+  Sinusoid sinusoid_;
+};
+
+/// Instants 0, period, 2 period, ... and exactly the duration last; a step shorter than 1e-6 of the period before the
+/// end is left out. With corners each of them is added, so that linear or Hermite interpolation of the samples follows
+/// the motion.
+/// @throws InputError(kTooLarge) for more than a million samples, (kInvalidGoal) where the period is not positive and
+/// finite.
+std::vector<double> sampleTimes(const JointTrajectory& trajectory, double period, bool with_corners = false);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_TRAJECTORY_JOINT_TRAJECTORY_H

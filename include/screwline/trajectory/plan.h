@@ -1,0 +1,66 @@
+#ifndef SCREWLINE_TRAJECTORY_PLAN_H
+#define SCREWLINE_TRAJECTORY_PLAN_H
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "screwline/spatial/pose.h"
+#include "screwline/trajectory/joint_trajectory.h"
+#include "screwline/trajectory/limits.h"
+
+namespace screwline {
+
+struct Waypoint {
+  VectorX position;      ///< [rad or m], n values.
+  VectorX velocity;      ///< Empty: not given.
+  VectorX acceleration;  ///< Empty: not given.
+  double time = 0.0;     ///< [s] The first is 0; 0 on a later one: not given.
+};
+
+struct PlanRequest {
+  std::string profile;
+  std::vector<Waypoint> waypoints;
+  double duration = 0.0;                                   ///< [s] 0: the shortest that the limits allow.
+  double sample_period = 0.0;                              ///< [s] 0: 0.01. Only bounds the number of samples here.
+  Limits limits;                                           ///< Of n joints; decides n.
+  double velocity_scaling = 0.0;                           ///< In (0, 1]; 0: 1.
+  double acceleration_scaling = 0.0;                       ///< The same.
+  double jerk_scaling = 0.0;                               ///< The same.
+  std::vector<std::pair<std::string, double>> parameters;  ///< As listProfiles() names them.
+};
+
+struct PlanResult {
+  JointTrajectory trajectory;
+  double sample_period = 0.01;         ///< [s] As requested, or its default.
+  std::vector<double> waypoint_times;  ///< [s] One instant per waypoint.
+  MatrixX via_joint_errors;            ///< (waypoints - 2) x n: position at the instant minus the waypoint's position.
+  std::vector<std::string> notes;      ///< What the reader of the answer should know, one sentence each.
+};
+
+struct ParameterInfo {
+  std::string name;  ///< "amplitude_i" stands for amplitude_0, amplitude_1, ...
+  std::string meaning;
+  bool per_joint = false;
+};
+
+struct ProfileInfo {
+  std::string name;
+  std::string meaning;
+  std::vector<ParameterInfo> parameters;
+};
+
+/// Every profile that plan() knows, in the order of the documentation.
+std::vector<ProfileInfo> listProfiles();
+
+/// A motion through the waypoints that keeps the limits, proved by exact extrema (verify.h) before it is returned.
+/// Orders that a profile makes infinite (acceleration of rectangular, jerk of cubic) are not held; notes say so.
+/// @throws InputError kUnknownProfile (lists the known ones), kLimitsInfeasible (names joint, order, value, bound and
+/// the shortest feasible duration; a given duration is never lengthened), kTooLarge, kInvalidGoal (names the field, its
+/// value and the bound).
+/// @throws Exception where the check fails: an internal error, never a trajectory.
+PlanResult plan(const PlanRequest& request);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_TRAJECTORY_PLAN_H

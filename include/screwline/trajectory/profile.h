@@ -1,0 +1,93 @@
+#ifndef SCREWLINE_TRAJECTORY_PROFILE_H
+#define SCREWLINE_TRAJECTORY_PROFILE_H
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "screwline/trajectory/plan.h"
+
+namespace screwline {
+
+/// What a profile makes of velocity and acceleration in waypoints; what it cannot meet is refused, never ignored.
+enum class WaypointDerivatives {
+  kNone,         ///< Starts and ends at rest: only zeros may be given, at the ends.
+  kEndVelocity,  ///< Velocities of the first and the last waypoint.
+  kAll,          ///< Velocities and accelerations of any waypoint.
+};
+
+/// A validated request as a builder sees it.
+struct ProfileContext {
+  const PlanRequest& request;
+  Limits limits;          ///< Scaled.
+  double duration = 0.0;  ///< From the request or the last waypoint's time; 0: free.
+
+  int joints() const { return limits.joints(); }
+  const std::vector<Waypoint>& waypoints() const { return request.waypoints; }
+  std::optional<double> parameter(const std::string& name) const;
+  double parameter(const std::string& name, double fallback) const { return parameter(name).value_or(fallback); }
+};
+
+/// What a builder returns: a motion within the limits, and the instant of every waypoint.
+struct ProfileDraft {
+  JointTrajectory trajectory;
+  std::vector<double> waypoint_times;
+  std::vector<std::string> notes;
+};
+
+using ProfileBuilder = ProfileDraft (*)(const ProfileContext& context);
+
+/// One row of the registry. To add a profile: write a builder, add a row in registry.cpp.
+struct Profile {
+  ProfileInfo info;
+  std::size_t fewest_waypoints = 2;
+  std::size_t most_waypoints = std::numeric_limits<std::size_t>::max();
+  bool via_times = false;  ///< Whether the instant of an intermediate waypoint may be given.
+  WaypointDerivatives derivatives = WaypointDerivatives::kNone;
+  ProfileBuilder build = nullptr;
+};
+
+/// @throws InputError(kUnknownProfile) listing the known ones.
+const Profile& findProfile(const std::string& name);
+
+/// Checks everything in the request that needs no planning. @throws InputError (see plan()).
+ProfileContext validateRequest(const PlanRequest& request, const Profile& profile);
+
+/// Throws InputError(kLimitsInfeasible): what breaks which limit in the given duration, and the shortest feasible one.
+[[noreturn]] void refuseDuration(const ProfileContext& context, const LimitUse& use, double shortest);
+
+/// One scaling for all joints, from the first waypoint to the last, in the given duration or the shortest that the
+/// finite orders allow.
+ProfileDraft scaleBetweenEnds(const ProfileContext& context, const TimeScaling& scaling);
+
+/// The trapezoid for a displacement within limits: blend fraction and duration.
+struct BlendedMove {
+  double blend_fraction = 1.0 / 3.0;
+  double duration = 0.0;
+};
+/// The shortest trapezoid of common s(tau) over `delta`; where acceleration is unlimited, one of equal thirds.
+BlendedMove shortestTrapezoid(const VectorX& delta, const Limits& limits);
+/// The blend fraction nearest to 1/3 that keeps the limits in `duration`. @pre duration is at least the shortest.
+double blendWithin(const VectorX& delta, const Limits& limits, double duration);
+
+// The builders, by the file that holds them.
+ProfileDraft buildRectangular(const ProfileContext& context);  // scalar_profiles.cpp
+ProfileDraft buildCubic(const ProfileContext& context);
+ProfileDraft buildTrapezoidal(const ProfileContext& context);
+ProfileDraft buildPolynomial345(const ProfileContext& context);
+ProfileDraft buildPolynomial4567(const ProfileContext& context);
+ProfileDraft buildCycloidal(const ProfileContext& context);
+ProfileDraft buildSinusoidal(const ProfileContext& context);
+ProfileDraft buildViaScalar(const ProfileContext& context);  // via_profiles.cpp
+ProfileDraft buildViaPerJoint(const ProfileContext& context);
+ProfileDraft buildMultipointTrapezoidal(const ProfileContext& context);  // multipoint_profiles.cpp
+ProfileDraft buildMultipointCubic(const ProfileContext& context);
+ProfileDraft buildMultipointQuintic(const ProfileContext& context);
+ProfileDraft buildBspline(const ProfileContext& context);  // bspline_profiles.cpp
+ProfileDraft buildBsplineInterpolating(const ProfileContext& context);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_TRAJECTORY_PROFILE_H

@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+
+#include "screwline/exception.h"
+#include "screwline/trajectory/format.h"
+#include "screwline/trajectory/profile.h"
+
+namespace screwline {
+namespace {
+
+constexpr double kLargest = 1e6;
+constexpr std::size_t kMostWaypoints = 100000;
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw InputError(ErrorCode::kInvalidGoal, message);
+}
+
+void requireUsable(double value, const std::string& field) {
+  if (std::isfinite(value) && std::abs(value) <= kLargest) return;
+  refuse(field + " is " + number(value) + ", its magnitude must be finite and at most 1000000");
+}
+
+void requireTime(double value, const std::string& field) {
+  requireUsable(value, field);
+  if (value < 0.0) refuse(field + " is " + number(value) + " s, it must not be negative");
+}
+
+void requireVector(const VectorX& values, int joints, const std::string& field) {
+  if (values.size() != joints) {
+    refuse(field + " has " + std::to_string(values.size()) + " values, the robot has " + std::to_string(joints) +
+           " joints");
+  }
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    requireUsable(values[i], indexed(field, static_cast<std::size_t>(i)));
+}
+
+void requireWithinBounds(const VectorX& position, const Limits& limits, const std::string& field) {
+  if (limits.lower.size() == 0) return;
+  for (Eigen::Index i = 0; i < position.size(); ++i) {
+    if (position[i] >= limits.lower[i] - kLimitTolerance && position[i] <= limits.upper[i] + kLimitTolerance) continue;
+    refuse(indexed(field, static_cast<std::size_t>(i)) + " is " + number(position[i]) + ", the joint's limits are " +
+           number(limits.lower[i]) + " to " + number(limits.upper[i]));
+  }
+}
+
+void requireWithinLimit(const VectorX& values, const VectorX& bounds, const std::string& field) {
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (std::abs(values[i]) <= bounds[i] * (1.0 + kLimitTolerance)) continue;
+    throw InputError(ErrorCode::kLimitsInfeasible, indexed(field, static_cast<std::size_t>(i)) + " is " +
+                                                       number(values[i]) + ", the limit is " + number(bounds[i]));
+  }
+}
+
+void requireMeetable(const VectorX& values, const std::string& field, bool accepted, const std::string& profile) {
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (accepted || values[i] == 0.0) continue;
+    refuse(indexed(field, static_cast<std::size_t>(i)) + " is " + number(values[i]) + ", profile '" + profile +
+           "' cannot meet it (multipoint_quintic does)");
+  }
+}
+
+/// A velocity or acceleration that is given must be one that the profile meets: a zero at the ends always is.
+void validateDerivatives(const ProfileContext& context, const Profile& profile, std::size_t index,
+                         const std::string& field) {
+  const Waypoint& waypoint = context.waypoints()[index];
+  const bool all = profile.derivatives == WaypointDerivatives::kAll;
+  const bool end = index == 0 || index + 1 == context.waypoints().size();
+  if (waypoint.velocity.size() > 0) {
+    requireVector(waypoint.velocity, context.joints(), field + ".velocity");
+    requireWithinLimit(waypoint.velocity, context.limits.velocity, field + ".velocity");
+    const bool accepted = all || (end && profile.derivatives == WaypointDerivatives::kEndVelocity);
+    requireMeetable(waypoint.velocity, field + ".velocity", accepted, profile.info.name);
+    if (!end && !all) refuse(field + ".velocity is given, profile '" + profile.info.name + "' chooses it itself");
+  }
+  if (waypoint.acceleration.size() > 0) {
+    requireVector(waypoint.acceleration, context.joints(), field + ".acceleration");
+    requireWithinLimit(waypoint.acceleration, context.limits.acceleration, field + ".acceleration");
+    requireMeetable(waypoint.acceleration, field + ".acceleration", all, profile.info.name);
+    if (!end && !all) refuse(field + ".acceleration is given, profile '" + profile.info.name + "' chooses it itself");
+  }
+}
+
+void validateCount(const PlanRequest& request, const Profile& profile) {
+  const std::size_t count = request.waypoints.size();
+  if (count > kMostWaypoints) {
+    throw InputError(ErrorCode::kTooLarge,
+                     "waypoints has " + std::to_string(count) + " entries, at most 100000 are planned");
+  }
+  if (count >= profile.fewest_waypoints && count <= profile.most_waypoints) return;
+  const bool exact = profile.fewest_waypoints == profile.most_waypoints;
+  const bool open = profile.most_waypoints > kMostWaypoints;
+  const std::string wanted = exact  ? "exactly " + std::to_string(profile.fewest_waypoints)
+                             : open ? "at least " + std::to_string(profile.fewest_waypoints)
+                                    : "at most " + std::to_string(profile.most_waypoints);
+  refuse("waypoints has " + std::to_string(count) + " entries, profile '" + profile.info.name + "' takes " + wanted);
+}
+
+void validateTimes(const PlanRequest& request, const Profile& profile) {
+  double previous = 0.0;
+  for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
+    const std::string field = indexed("waypoints", i) + ".time";
+    const double time = request.waypoints[i].time;
+    requireTime(time, field);
+    if (time == 0.0) continue;
+    if (i == 0) refuse(field + " is " + number(time) + " s, the first waypoint is at 0 s");
+    if (time <= previous) refuse(field + " is " + number(time) + " s, it must be after " + number(previous) + " s");
+    if (!profile.via_times && i + 1 < request.waypoints.size()) {
+      refuse(field + " is " + number(time) + " s, profile '" + profile.info.name +
+             "' takes no time at intermediate waypoints");
+    }
+    previous = time;
+  }
+  if (request.duration == 0.0 || previous == 0.0) return;
+  const bool last_given = request.waypoints.back().time > 0.0;
+  if (last_given && std::abs(previous - request.duration) > 1e-9 * request.duration) {
+    refuse("duration is " + number(request.duration) + " s, the last waypoint's time is " + number(previous) + " s");
+  }
+  if (!last_given && previous >= request.duration) {
+    refuse("duration is " + number(request.duration) + " s, a waypoint before the last is at " + number(previous) +
+           " s");
+  }
+}
+
+/// "amplitude_12" for the parameter "amplitude_i" of a robot with more than 12 joints.
+bool matches(const ParameterInfo& parameter, const std::string& name, int joints) {
+  if (!parameter.per_joint) return parameter.name == name;
+  const std::string stem = parameter.name.substr(0, parameter.name.size() - 1);
+  if (name.compare(0, stem.size(), stem) != 0) return false;
+  for (int i = 0; i < joints; ++i) {
+    if (name == stem + std::to_string(i)) return true;
+  }
+  return false;
+}
+
+void validateParameters(const PlanRequest& request, const Profile& profile) {
+  std::string known;
+  for (const auto& parameter : profile.info.parameters) known += (known.empty() ? "" : ", ") + parameter.name;
+  for (std::size_t k = 0; k < request.parameters.size(); ++k) {
+    const auto& [name, value] = request.parameters[k];
+    requireUsable(value, "parameter '" + name + "'");
+    const bool found =
+        std::any_of(profile.info.parameters.begin(), profile.info.parameters.end(),
+                    [&, &wanted = name](const auto& p) { return matches(p, wanted, request.limits.joints()); });
+    if (!found) {
+      refuse("parameter '" + name + "' is unknown to profile '" + profile.info.name + "', which takes " +
+             (known.empty() ? "none" : known));
+    }
+    for (std::size_t other = 0; other < k; ++other) {
+      if (request.parameters[other].first == name) refuse("parameter '" + name + "' is given twice");
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<double> ProfileContext::parameter(const std::string& name) const {
+  for (const auto& [given, value] : request.parameters) {
+    if (given == name) return value;
+  }
+  return std::nullopt;
+}
+
+ProfileContext validateRequest(const PlanRequest& request, const Profile& profile) {
+  const int joints = request.limits.joints();
+  if (joints == 0) refuse("limits have no joints");
+  validateLimits(request.limits, joints);
+  validateCount(request, profile);
+  requireTime(request.duration, "duration");
+  requireTime(request.sample_period, "sample_period");
+  validateTimes(request, profile);
+  validateParameters(request, profile);
+
+  const auto factor = [](double given) { return given == 0.0 ? 1.0 : given; };
+  ProfileContext context{request,
+                         scaledLimits(request.limits, factor(request.velocity_scaling),
+                                      factor(request.acceleration_scaling), factor(request.jerk_scaling)),
+                         request.duration};
+  for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
+    const std::string field = indexed("waypoints", i);
+    requireVector(request.waypoints[i].position, joints, field + ".position");
+    requireWithinBounds(request.waypoints[i].position, request.limits, field + ".position");
+    validateDerivatives(context, profile, i, field);
+  }
+  if (context.duration == 0.0 && !request.waypoints.empty()) context.duration = request.waypoints.back().time;
+  return context;
+}
+
+}  // namespace screwline
