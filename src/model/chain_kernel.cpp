@@ -17,11 +17,14 @@ Pose frameOn(const Axis& axis, const Vector3& x) {
   return X;
 }
 
-/// Unit vector perpendicular to both axes; any perpendicular where they are exactly parallel.
+/// Unit vector perpendicular to both axes; any perpendicular where they are parallel. The cross product of two almost parallel axes is
+/// mostly rounding, even along them: taking off that part keeps the frames orthonormal.
 Vector3 commonNormal(const Vector3& first, const Vector3& second) {
   const Vector3 normal = first.cross(second);
   const double length = normal.norm();
-  return length > 0.0 ? Vector3(normal / length) : anyPerpendicular(first);
+  if (length == 0.0) return anyPerpendicular(first);
+  const Vector3 across = normal / length - first * first.dot(normal / length);
+  return across.norm() > 0.5 ? Vector3((across - first * first.dot(across)).normalized()) : anyPerpendicular(first);
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+#ifndef SCREWLINE_IK_TASK_ERROR_H
+#define SCREWLINE_IK_TASK_ERROR_H
+
+#include <cmath>
+
+#include "screwline/model/task.h"
+
+namespace screwline {
+
+/// Error of a pose over the task's rows, the one measure of every solver. Translation rows: difference of position,
+/// base frame. All three rotation rows: rotation vector of R_target R^T. One or two rotation rows: those components of
+/// it.
+struct TaskError {
+  Vector6 twist =
+      Vector6::Zero();       ///< From actual to target, [p; r], base frame; zero in the rows that are not of the task.
+  double position = 0.0;     ///< [m] norm of the translation rows.
+  double orientation = 0.0;  ///< [rad] norm of the rotation rows.
+
+  double norm() const { return std::hypot(position, orientation); }
+  double weighted(double rotation_weight) const { return std::hypot(position, rotation_weight * orientation); }
+};
+
+/// No allocation.
+TaskError taskError(const Task& task, const Pose& target, const Pose& actual);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_IK_TASK_ERROR_H
