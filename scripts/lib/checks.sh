@@ -5,9 +5,13 @@ check_format() {
   find "$ROOT" -path "$ROOT/build*" -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format-14 --dry-run -Werror
 }
 
-# A clone may have any name; the path of Eigen is exported by catkin_package(DEPENDS).
+# Not findings: a clone may have any name; catkin_package(DEPENDS) exports the path of Eigen; scripts/ holds commands of the sources too;
+# without a rosdep database catkin_lint can not tell that the key of urdfdom is liburdfdom-dev.
 check_catkin_lint() {
-  catkin_lint --offline --strict -W1 --ignore package_path_name --ignore external_interface_path "$ROOT"
+  local findings
+  findings=$(catkin_lint --offline --quiet -W1 --ignore package_path_name --ignore external_interface_path --ignore uninstalled_script \
+    "$ROOT" 2>&1 | grep -v -e "missing build_depend on 'urdfdom'" -e 'rosdep database' -e 'unknown dependencies will be ignored') || true
+  [[ -z $findings ]] || { echo "$findings"; return 1; }
 }
 
 check_style() { "$ROOT/scripts/check_style" "$ROOT"; }

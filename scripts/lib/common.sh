@@ -26,7 +26,7 @@ logged() {
   mkdir -p "$LOGS"
   if ! "$@" >"$LOGS/$name.log" 2>&1; then
     say "FAILED: $name; the end of $LOGS/$name.log:"
-    tail -n 40 "$LOGS/$name.log"
+    grep -v 'Built target' "$LOGS/$name.log" | tail -n 60
     return 1
   fi
 }
