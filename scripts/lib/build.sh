@@ -1,11 +1,14 @@
 # shellcheck shell=bash
 # Sourced by the scripts: configuring and building.
 
+# Hidden: roslaunch looks for files in all folders of a package but hidden ones, and would find each of them twice.
+INSTALL=$BUILD/.install
+
 # configure DIRECTORY OPTION...
 configure() {
   local directory=$1
   shift
-  cmake -S "$ROOT" -B "$directory" -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@"
+  cmake -S "$ROOT" -B "$directory" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_INSTALL_PREFIX="$INSTALL" "$@"
 }
 
 # build DIRECTORY TARGET...: with all cores, past the first error.

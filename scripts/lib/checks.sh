@@ -48,14 +48,14 @@ roslaunch_check() {
 
 # What `make install` leaves is enough to ask ROS about the package and to start its nodes and launch files.
 check_install_space() {
-  rm -rf "$BUILD/install"
+  rm -rf "$INSTALL"
   cmake --build "$BUILD" --target install || return 1
-  (source_ros "$BUILD/install/setup.bash" && "$ROOT/scripts/lib/try_install" "$BUILD/install")
+  (source_ros "$INSTALL/setup.bash" && "$ROOT/scripts/lib/try_install" "$INSTALL")
 }
 
-# A user's workspace: the sources linked into src/, `catkin_make install`. Debug, so that assertions are compiled too.
+# A user's workspace (hidden, as the install space is): the sources linked into src/, `catkin_make install`. Debug, so that assertions are compiled too.
 check_catkin_make() {
-  local workspace=$BUILD/workspace
+  local workspace=$BUILD/.workspace
   rm -rf "$workspace/install"
   mkdir -p "$workspace/src"
   ln -sfn "$ROOT" "$workspace/src/screwline"
