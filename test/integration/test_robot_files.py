@@ -15,7 +15,7 @@ GOLDEN = os.path.join(ROOT, 'test', 'data', 'golden')
 TOLERANCE = 1e-12
 GOLDEN_OF = {
     'prrr_arm': 'seed000_prrr',
-    'rrp_spherical': 'seed001_rrp_spherical',
+    'rrp_spherical': 'seed001_rrp_spherical__special',
     'rr_planar': 'seed003_01_rr_planar',
     'rrr_planar': 'seed003_02_rrr_planar',
     'rrr_articulated': 'seed003_03_rrr_articulated',
@@ -24,10 +24,10 @@ GOLDEN_OF = {
     'spherical_wrist': 'seed003_06_wrist',
     'scara': 'seed003_07_scara',
     'prrr_column': 'seed003_08_prrr',
-    'rrprrr': 'seed004_01_rrprrr',
+    'rrprrr': 'seed004_01_rrprrr__special',
     'rrr_orthogonal': 'seed004_02_rrr_dh',
     'orienting_3r': 'seed004_03_orienting_3r',
-    'planar_3r': 'seed004_05_planar_3r',
+    'planar_3r': 'seed004_05_planar_3r__special',
 }
 TASK_OF = {
     'xy': ['x', 'y'],
