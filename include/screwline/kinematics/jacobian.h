@@ -34,6 +34,9 @@ Matrix6X movedReference(const Matrix6X& J, const Vector3& r);
 /// J with both blocks expressed in another frame: R_FB applied to rows v and w.
 Matrix6X expressedIn(const Matrix6X& J, const Matrix3& R_FB);
 
+/// The task's rows of J, in task order: m x n. Allocates.
+MatrixX taskJacobian(const Task& task, const Matrix6X& J);
+
 /// Determinant where J is square, else NaN.
 double determinantOrNan(const MatrixX& J);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "screwline/kinematics/jacobian.h"
+#include "screwline/kinematics/singularity_factors.h"
 
 namespace screwline {
 
@@ -30,7 +31,15 @@ struct TaskRank {
   MatrixX self_motions;     ///< k x n, orthonormal rows: joint rates that move no task row. k = n - rank.
 };
 
-TaskRank taskRank(const MatrixX& task_jacobian);
+/// How many of the descending singular values count: those above kRankTolerance of the largest and above `noise`.
+int rankOf(const VectorX& singular_values, double noise = 0.0);
+
+/// What rounding can leave in a task Jacobian whose rows should be zero: a share of the norm of the whole 6 x n one.
+/// With it a wrist whose tip is the centre has rank 0 in x y z, whatever the last bits say.
+double jacobianNoise(const Matrix6X& J);
+
+/// Decomposition of a task Jacobian (m x n). Allocates.
+TaskRank taskRank(const MatrixX& task_jacobian, double noise = 0.0);
 
 /// Product of the singular values: sqrt(det(J J^T)) (Yoshikawa 1985).
 double manipulability(const MatrixX& task_jacobian);
@@ -43,7 +52,8 @@ struct SingularityAnalysis {
   double determinant = 0.0;       ///< NaN where the task Jacobian is not square.
   std::vector<SingularityCondition> conditions;
   VectorX nearest;  ///< n; a singular configuration nearest to q, within limits where there is one; empty: none found.
-  double distance = 0.0;     ///< Norm of nearest - q (rad and m mixed); infinite where none was found.
+  double distance = 0.0;  ///< Norm of nearest - q (rad and m mixed); infinite where none was found.
+  bool nearest_within_limits = false;
   std::string nearest_note;  ///< How it was found, and how far it can be trusted.
 };
 
@@ -51,6 +61,10 @@ constexpr double kMaxCondition = 1e16;
 
 /// Everything about the task at q. Deterministic; allocates; well under a millisecond for 6 joints.
 SingularityAnalysis analyzeSingularity(const SerialChain& chain, const ConstVectorRef& q, const Task& task);
+
+/// The same with factorsOf(chain, task) at hand, which do not depend on q: the quick way for many configurations.
+SingularityAnalysis analyzeSingularity(const SerialChain& chain, const ConstVectorRef& q, const Task& task,
+                                       const std::vector<SingularityFactor>& factors);
 
 }  // namespace screwline
 
