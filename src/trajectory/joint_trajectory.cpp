@@ -82,7 +82,9 @@ JointTrajectory JointTrajectory::sinusoidal(Sinusoid motion, double duration) {
 
 int JointTrajectory::continuity() const {
   if (form_ == Form::kScaled) return scaling_.continuity();
-  return form_ == Form::kPiecewise ? pieces_.continuity : 3;
+  if (form_ == Form::kSinusoidal) return 3;
+  const bool joins_rest = pieces_.starts_at_rest || pieces_.ends_at_rest;
+  return joins_rest ? std::min(pieces_.continuity, pieces_.rest_continuity) : pieces_.continuity;
 }
 
 std::vector<double> JointTrajectory::corners() const {

@@ -38,7 +38,11 @@ double JointExtrema::peak(int order) const {
 
 PiecewisePolynomial::PiecewisePolynomial(int joint_count, int piece_degree, std::vector<double> segment_breaks,
                                          int continuity_class)
-    : joints(joint_count), degree(piece_degree), breaks(std::move(segment_breaks)), continuity(continuity_class) {
+    : joints(joint_count),
+      degree(piece_degree),
+      breaks(std::move(segment_breaks)),
+      continuity(continuity_class),
+      rest_continuity(continuity_class) {
   coefficients.assign(segments() * static_cast<std::size_t>(degree + 1) * static_cast<std::size_t>(joints), 0.0);
 }
 
@@ -58,18 +62,20 @@ double PiecewisePolynomial::atEnd(std::size_t segment, int joint, int order, boo
   return polynomial(upper_end ? 1.0 : 0.0) * rate(length(segment), order);
 }
 
-double largestStep(const PiecewisePolynomial& motion, int joint, int order) {
+double stepInside(const PiecewisePolynomial& motion, int joint, int order) {
   double largest = 0.0;
-  const std::size_t last = motion.segments();
-  if (last == 0) return largest;
-  for (std::size_t k = 1; k < last; ++k) {
+  for (std::size_t k = 1; k < motion.segments(); ++k) {
     largest =
         std::max(largest, std::abs(motion.atEnd(k, joint, order, false) - motion.atEnd(k - 1, joint, order, true)));
   }
-  if (order == 0) return largest;
-  if (motion.starts_at_rest) largest = std::max(largest, std::abs(motion.atEnd(0, joint, order, false)));
-  if (motion.ends_at_rest) largest = std::max(largest, std::abs(motion.atEnd(last - 1, joint, order, true)));
   return largest;
+}
+
+double stepFromRest(const PiecewisePolynomial& motion, int joint, int order) {
+  if (order == 0 || motion.segments() == 0) return 0.0;
+  const double start = motion.starts_at_rest ? std::abs(motion.atEnd(0, joint, order, false)) : 0.0;
+  const double end = motion.ends_at_rest ? std::abs(motion.atEnd(motion.segments() - 1, joint, order, true)) : 0.0;
+  return std::max(start, end);
 }
 
 JointExtrema PiecewisePolynomial::extrema(int joint) const {
@@ -92,23 +98,34 @@ JointExtrema PiecewisePolynomial::extrema(int joint) const {
   }
   // Where the builder promises continuity the remaining jumps are rounding: the verifier bounds them, no figure shows
   // them.
-  if (continuity < 1) result.velocity_step = largestStep(*this, joint, 1);
-  if (continuity < 2) result.acceleration_step = largestStep(*this, joint, 2);
+  const auto step = [&](int order) {
+    return std::max(continuity < order ? stepInside(*this, joint, order) : 0.0,
+                    rest_continuity < order ? stepFromRest(*this, joint, order) : 0.0);
+  };
+  result.velocity_step = step(1);
+  result.acceleration_step = step(2);
   return result;
 }
 
 PiecewisePolynomial concatenate(const PiecewisePolynomial& first, const PiecewisePolynomial& second) {
-  std::vector<double> breaks = first.breaks;
-  for (std::size_t k = 1; k < second.breaks.size(); ++k) breaks.push_back(first.duration() + second.breaks[k]);
+  std::vector<double> breaks{0.0};
+  std::vector<std::pair<const PiecewisePolynomial*, std::size_t>> sources;
+  for (const auto* motion : {&first, &second}) {
+    const double start = motion == &first ? 0.0 : first.duration();
+    for (std::size_t k = 0; k < motion->segments(); ++k) {
+      if (motion->length(k) <= 0.0) continue;
+      sources.emplace_back(motion, k);
+      breaks.push_back(start + motion->breaks[k + 1]);
+    }
+  }
+  if (sources.empty()) return second;
   const int degree = std::max(first.degree, second.degree);
   PiecewisePolynomial joined(first.joints, degree, std::move(breaks), std::min(first.continuity, second.continuity));
+  joined.rest_continuity = std::min(first.rest_continuity, second.rest_continuity);
   joined.starts_at_rest = first.starts_at_rest;
   joined.ends_at_rest = second.ends_at_rest;
   for (std::size_t k = 0; k < joined.segments(); ++k) {
-    const bool in_first = k < first.segments();
-    for (int j = 0; j < joined.joints; ++j) {
-      joined.setPiece(k, j, in_first ? first.piece(k, j) : second.piece(k - first.segments(), j));
-    }
+    for (int j = 0; j < joined.joints; ++j) joined.setPiece(k, j, sources[k].first->piece(sources[k].second, j));
   }
   return joined;
 }
@@ -117,6 +134,7 @@ PiecewisePolynomial reversed(const PiecewisePolynomial& motion) {
   std::vector<double> breaks;
   for (auto t = motion.breaks.rbegin(); t != motion.breaks.rend(); ++t) breaks.push_back(motion.duration() - *t);
   PiecewisePolynomial result(motion.joints, motion.degree, std::move(breaks), motion.continuity);
+  result.rest_continuity = motion.rest_continuity;
   result.starts_at_rest = motion.ends_at_rest;
   result.ends_at_rest = motion.starts_at_rest;
   for (std::size_t k = 0; k < result.segments(); ++k) {

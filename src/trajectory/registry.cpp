@@ -60,7 +60,83 @@ std::vector<Profile> singleMoves() {
   };
 }
 
-std::vector<Profile> otherProfiles() {
+std::vector<Profile> viaMoves() {
+  const ParameterInfo via_tau{"via_tau",
+                              "fraction of the duration at which the via is due, in (0, 1); 0.5 if neither it nor the "
+                              "via's time is given",
+                              false};
+  return {
+      {{"via_scalar",
+        "degree 6 from rest to rest, one s(tau) for all joints, fitted to the via value of the first joint: the other "
+        "joints miss the "
+        "via by what the answer says",
+        {via_tau}},
+       3,
+       3,
+       true,
+       WaypointDerivatives::kNone,
+       buildViaScalar},
+      {{"via_per_joint", "degree 6 from rest to rest, every joint through its own via value", {via_tau}},
+       3,
+       3,
+       true,
+       WaypointDerivatives::kNone,
+       buildViaPerJoint},
+  };
+}
+
+std::vector<Profile> multipointMoves() {
+  const ParameterInfo degree{"degree", "of the pieces: 3 (default), 4, 5, 6 or 7", false};
+  const ParameterInfo rest_ends{
+      "rest_ends",
+      "1 (default): the end points are repeated so that the motion starts and ends at rest; 0: the waypoints "
+      "alone are the control points, the motion starts and ends with velocity",
+      false};
+  return {
+      {{"multipoint_trapezoidal", "trapezoidal velocity from waypoint to waypoint, at rest in each", {}},
+       2,
+       kAny,
+       true,
+       WaypointDerivatives::kNone,
+       buildMultipointTrapezoidal},
+      {{"multipoint_cubic",
+        "C2 cubic spline through the waypoints; velocities at the ends from the waypoints, else zero",
+        {}},
+       2,
+       kAny,
+       true,
+       WaypointDerivatives::kEndVelocity,
+       buildMultipointCubic},
+      {{"multipoint_quintic",
+        "C2 quintic pieces through the waypoints; velocities and accelerations from the waypoints, else those of the "
+        "C2 cubic spline, at "
+        "the ends zero",
+        {}},
+       2,
+       kAny,
+       true,
+       WaypointDerivatives::kAll,
+       buildMultipointQuintic},
+      {{"bspline",
+        "clamped uniform B-spline with the waypoints as control points: it meets the ends and stays in their hull",
+        {degree, rest_ends}},
+       2,
+       kAny,
+       false,
+       WaypointDerivatives::kNone,
+       buildBspline},
+      {{"bspline_interpolating",
+        "B-spline through the waypoints, from rest to rest with zero acceleration at the ends",
+        {degree}},
+       2,
+       kAny,
+       true,
+       WaypointDerivatives::kNone,
+       buildBsplineInterpolating},
+  };
+}
+
+std::vector<Profile> freeMotions() {
   return {
       {{"sinusoidal",
         "joint i: offset_i + amplitude_i sin(omega_i t + phase_i) for the given duration; parameters not given are 0, "
@@ -81,7 +157,8 @@ std::vector<Profile> otherProfiles() {
 const std::vector<Profile>& registry() {
   static const std::vector<Profile> profiles = [] {
     std::vector<Profile> all = singleMoves();
-    for (auto& profile : otherProfiles()) all.push_back(profile);
+    for (const auto& group : {viaMoves(), multipointMoves(), freeMotions()})
+      all.insert(all.end(), group.begin(), group.end());
     return all;
   }();
   return profiles;

@@ -37,20 +37,26 @@ std::optional<std::string> checkBounds(const JointExtrema& e, const Limits& limi
   return std::nullopt;
 }
 
+double shortestPiece(const PiecewisePolynomial& motion) {
+  double shortest = motion.duration();
+  for (std::size_t k = 0; k < motion.segments(); ++k) {
+    if (motion.length(k) > 0.0) shortest = std::min(shortest, motion.length(k));
+  }
+  return shortest;
+}
+
 std::optional<std::string> checkSteps(const PiecewisePolynomial& motion, const JointExtrema& e, int index) {
   const double scale[] = {std::max(1.0, e.position.peak()), e.velocity, e.acceleration, e.jerk};
-  for (int order = 0; order <= motion.continuity; ++order) {
-    const double step = largestStep(motion, index, order);
-    // Derivatives cancel as the position over the shortest piece does: that is the floor of what rounding leaves.
-    double shortest = motion.duration();
-    for (std::size_t k = 0; k < motion.segments(); ++k) {
-      if (motion.length(k) > 0.0) shortest = std::min(shortest, motion.length(k));
-    }
+  const double shortest = shortestPiece(motion);
+  for (int order = 0; order <= std::max(motion.continuity, motion.rest_continuity); ++order) {
+    const double inside = order <= motion.continuity ? stepInside(motion, index, order) : 0.0;
+    const double from_rest = order <= motion.rest_continuity ? stepFromRest(motion, index, order) : 0.0;
+    // Rounding of positions over the shortest piece is the floor of what derivatives can cancel to.
     const double floor = shortest > 0.0 ? 1e-13 * scale[0] / std::pow(shortest, order) : 0.0;
-    if (step > kStepTolerance * scale[order] + floor) {
-      return joint(index) + "derivative " + std::to_string(order) + " steps by " + number(step) +
-             ", promised is continuity " + std::to_string(motion.continuity);
-    }
+    const double step = std::max(inside, from_rest);
+    if (step <= kStepTolerance * scale[order] + floor) continue;
+    return joint(index) + "derivative " + std::to_string(order) + " steps by " + number(step) +
+           ", the motion promises that it does not";
   }
   return std::nullopt;
 }

@@ -34,12 +34,13 @@ struct PiecewisePolynomial {
   int degree = 0;                    ///< Of every piece, at most Polynomial::kMaxDegree.
   std::vector<double> breaks;        ///< [s], segments() + 1 of them, not decreasing, the first 0.
   std::vector<double> coefficients;  ///< segments() * (degree + 1) * joints.
-  int continuity = 0;          ///< Derivatives 0 .. continuity (at most 3) are continuous, joined to rest at the ends.
+  int continuity = 0;          ///< Derivatives 0 .. continuity (at most 3) are continuous at the breakpoints inside.
+  int rest_continuity = 0;     ///< Derivatives 1 .. this are zero at an end that joins rest.
   bool starts_at_rest = true;  ///< False: the motion starts in a moving state, so nothing steps at t = 0.
   bool ends_at_rest = true;
 
   PiecewisePolynomial() = default;
-  /// Room for the segments between the given breaks, all coefficients zero.
+  /// Room for the segments between the given breaks, all coefficients zero; rest is joined as smoothly as pieces are.
   PiecewisePolynomial(int joint_count, int piece_degree, std::vector<double> segment_breaks, int continuity_class);
 
   std::size_t segments() const { return breaks.empty() ? 0 : breaks.size() - 1; }
@@ -67,9 +68,11 @@ struct PiecewisePolynomial {
   }
 };
 
-/// Largest jump of a derivative (0..3) of one joint over interior breakpoints and, where the motion joins rest, its
-/// ends.
-double largestStep(const PiecewisePolynomial& motion, int joint, int order);
+/// Largest jump of a derivative (0..3) of one joint over the breakpoints inside.
+double stepInside(const PiecewisePolynomial& motion, int joint, int order);
+
+/// Its largest jump where the motion joins rest: at the ends, where they are at rest. 0 for order 0.
+double stepFromRest(const PiecewisePolynomial& motion, int joint, int order);
 
 /// The first motion, then the second, which starts where the first ends. The result's continuity is the lesser of the
 /// two.
