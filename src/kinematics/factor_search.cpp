@@ -87,16 +87,11 @@ std::vector<SingularityFactor> factorsFromRoots(const SerialChain& chain, int jo
       roots.erase(opposite);
     }
   }
+  // Over a whole turn a periodic function changes sign an even number of times: an odd one out belongs to a factor that
+  // other joints are in too.
+  if (lonely.size() % 2 != 0) return factors;
   std::sort(lonely.begin(), lonely.end());
-  const bool paired = lonely.size() % 2 == 0;
-  for (std::size_t i = 0; i < lonely.size(); i += paired ? 2 : 1) {
-    if (paired) {
-      factors.push_back(pairFactor(joint, lonely[i], lonely[i + 1]));
-    } else {
-      factors.push_back(singleFactor(joint, FactorTerm::Function::kSine, 0.5, -0.5 * lonely[i]));
-      factors.back().roots = {lonely[i]};
-    }
-  }
+  for (std::size_t i = 0; i < lonely.size(); i += 2) factors.push_back(pairFactor(joint, lonely[i], lonely[i + 1]));
   return factors;
 }
 
