@@ -1,12 +1,16 @@
 # Everything a user needs from the install space. Who adds a library, a node, a tool or a script adds its name here.
-set(libraries
-  screwline_core
-)
-set(executables
-)
-set(python_scripts
-)
+set(libraries screwline_core screwline_ros)
+set(executables frame_broadcaster kinematics_server trajectory_generator)
+set(python_scripts)
 set(folders launch urdf config)
+
+# What is not written yet is left out.
+foreach(target ${libraries} ${executables})
+  if(NOT TARGET ${target})
+    list(REMOVE_ITEM libraries ${target})
+    list(REMOVE_ITEM executables ${target})
+  endif()
+endforeach()
 
 install(TARGETS ${libraries}
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}

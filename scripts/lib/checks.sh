@@ -5,12 +5,13 @@ check_format() {
   find "$ROOT" -path "$ROOT/build*" -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format-14 --dry-run -Werror
 }
 
-# Not findings: a clone may have any name; catkin_package(DEPENDS) exports the path of Eigen; scripts/ holds commands of the sources too;
-# without a rosdep database catkin_lint can not tell that the key of urdfdom is liburdfdom-dev.
+# Left out, as no findings: a clone may have any name, Eigen's path is exported by catkin_package(DEPENDS), generated headers lie in the
+# devel space, scripts/ holds commands of the sources too; and that urdfdom's key is liburdfdom-dev, which needs a rosdep database.
 check_catkin_lint() {
-  local findings
-  findings=$(catkin_lint --offline --quiet -W1 --ignore package_path_name --ignore external_interface_path --ignore uninstalled_script \
-    "$ROOT" 2>&1 | grep -v -e "missing build_depend on 'urdfdom'" -e 'rosdep database' -e 'unknown dependencies will be ignored') || true
+  local findings id ignored=()
+  for id in package_path_name external_interface_path external_directory uninstalled_script; do ignored+=(--ignore "$id"); done
+  findings=$(catkin_lint --offline --quiet -W1 "${ignored[@]}" "$ROOT" 2>&1 |
+    grep -v -e "missing build_depend on 'urdfdom'" -e 'rosdep database' -e 'unknown dependencies will be ignored') || true
   [[ -z $findings ]] || { echo "$findings"; return 1; }
 }
 
@@ -50,7 +51,14 @@ roslaunch_check() {
 check_install_space() {
   rm -rf "$INSTALL"
   cmake --build "$BUILD" --target install || return 1
-  (source_ros "$INSTALL/setup.bash" && "$ROOT/scripts/lib/try_install" "$INSTALL")
+  (source_ros "$INSTALL/setup.bash" && "$ROOT/scripts/lib/try_install" "$INSTALL" && check_installed_launch)
+}
+
+check_installed_launch() {
+  local launch
+  for launch in "$INSTALL"/share/screwline/launch/*.launch; do
+    roslaunch_check "$launch" || return 1
+  done
 }
 
 # A user's workspace (hidden, as the install space is): the sources linked into src/, `catkin_make install`. Debug, so that assertions are compiled too.
