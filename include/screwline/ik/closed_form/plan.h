@@ -1,0 +1,107 @@
+#ifndef SCREWLINE_IK_CLOSED_FORM_PLAN_H
+#define SCREWLINE_IK_CLOSED_FORM_PLAN_H
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "screwline/ik/closed_form/orientation_problem.h"
+#include "screwline/ik/closed_form/position_problem.h"
+#include "screwline/model/serial_chain.h"
+#include "screwline/model/task.h"
+
+namespace screwline {
+
+constexpr int kMaxPlanJoints = 6;
+
+/// A solution as a plan gives it: not wrapped, not verified.
+struct PlanSolution {
+  std::array<double, kMaxPlanJoints> q{};
+  unsigned free = 0;          ///< Bit i: joint i may take any value; q has the preferred one.
+  std::array<int, 3> sign{};  ///< Eliminant, square root, wrist: see PositionSolution and OrientationSolution.
+  int rank = 0;
+};
+
+struct PlanSolutions {
+  std::array<PlanSolution, 8> solutions;
+  int count = 0;
+
+  const PlanSolution* begin() const { return solutions.data(); }
+  const PlanSolution* end() const { return solutions.data() + count; }
+};
+
+/// One part of a branch's name, decided by a product of signs: "elbow up" and "elbow down", "elbow straight" where it
+/// is zero.
+struct BranchPart {
+  std::array<bool, 3> signs{};  ///< Which of PlanSolution::sign are multiplied.
+  int orientation = 1;          ///< Makes `positive` mean what it says.
+  std::string positive;
+  std::string negative;
+  std::string neutral;
+};
+
+/// Inverse kinematics of a chain for a task, compiled once from the geometry of its axes into two small problems: the
+/// position of a point moved by three axes, and an orientation by three. Task rows that are missing become slides that
+/// cost nothing; a heading is taken by the last turn; a spherical wrist (or shoulder) gives the point. Before a plan is
+/// used it has to reproduce configurations of the chain.
+class ClosedFormPlan {
+ public:
+  /// Empty where the chain's geometry has no such decomposition for the task (also: mimic joints, more or fewer joints
+  /// than rows).
+  static std::optional<ClosedFormPlan> compile(const SerialChain& chain, const Task& task);
+
+  /// All solutions for a pose of the tip. `preferred` (n values) sets free joints. No allocation.
+  void solve(const Pose& target, const double* preferred, PlanSolutions& solutions) const;
+
+  /// As "position by three joints (axes that meet), spherical wrist".
+  const std::string& method() const { return method_; }
+  const std::vector<BranchPart>& branchParts() const { return parts_; }
+  /// "shoulder front, elbow up"; empty where there is one branch only.
+  std::string branchName(const PlanSolution& solution) const;
+
+ private:
+  enum class Shape { kPosition, kOrientation, kWrist, kShoulder, kHeading };
+
+  bool compileShape(const SerialChain& chain, const Task& task);
+  bool compilePosition(const Task& task);
+  bool compileSpherical(int first);
+  bool compileHeading(const Task& task);
+  bool compileStage(const std::vector<int>& joints, const Task& task);
+  bool reproduces(const SerialChain& chain, const Task& task) const;
+  void nameBranches(const SerialChain& chain);
+  void orient(const SerialChain& chain, BranchPart& branch_part) const;
+  double meaningOf(const BranchPart& branch_part, const double* q) const;
+
+  void solvePosition(const Vector3& goal, const double* preferred, PlanSolutions& solutions) const;
+  void solveSpherical(const Pose& target, const double* preferred, PlanSolutions& solutions) const;
+  void solveHeading(const Pose& target, const double* preferred, PlanSolutions& solutions) const;
+  void solveTurningSlides(const Matrix3& turn, const Vector3& goal, const double* preferred,
+                          PlanSolutions& solutions) const;
+  void addStage(const PositionSolutions& found, PlanSolutions& solutions) const;
+  Matrix3 turnOf(int first_joint, const double* q) const;
+
+  Shape shape_ = Shape::kPosition;
+  Pose home_;
+  double length_ = 1.0;
+  std::vector<Axis> axes_;  ///< The chain's.
+  std::optional<PositionProblem>
+      position_;  ///< Compiled; for a heading with slides behind the last turn, of the zero heading.
+  std::array<Axis, 3> stage_axes_;
+  std::array<int, 3> stage_joints_{
+      {-1, -1, -1}};                 ///< Joint of each axis of the position problem; -1: a row that is missing.
+  double stage_sign_ = 1.0;          ///< -1 where the problem runs from the tip to the base.
+  Vector3 start_ = Vector3::Zero();  ///< Point that the position problem moves, at zero.
+  std::optional<OrientationProblem> orientation_;
+  int spherical_first_ = 0;  ///< First joint of the orientation problem.
+  int heading_joint_ = -1;   ///< Joint that takes the heading.
+  Vector3 heading_axis_ = Vector3::UnitZ();
+  bool turning_slides_ =
+      false;  ///< Slides behind the heading joint turn with it: the position problem is compiled per pose.
+  std::string method_;
+  std::vector<BranchPart> parts_;
+};
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_IK_CLOSED_FORM_PLAN_H

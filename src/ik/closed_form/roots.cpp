@@ -1,0 +1,168 @@
+#include "screwline/ik/closed_form/roots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "screwline/spatial/pose.h"
+
+namespace screwline {
+namespace {
+
+constexpr double kNegligible = 1e-13;  // Of `scale`: coefficients below it are rounding.
+
+int signOf(double x) {
+  return (x > 0.0) - (x < 0.0);
+}
+
+double evaluate(const double* c, int degree, double x) {
+  double value = c[degree];
+  for (int i = degree - 1; i >= 0; --i) value = value * x + c[i];
+  return value;
+}
+
+/// Sum of the magnitudes of the terms: what rounding of the value is measured by.
+double magnitude(const double* c, int degree, double x) {
+  double value = std::abs(c[degree]);
+  for (int i = degree - 1; i >= 0; --i) value = value * std::abs(x) + std::abs(c[i]);
+  return value;
+}
+
+Roots solveQuadratic(const double* c) {
+  Roots roots;
+  const double half = 0.5 * c[1];
+  const double root = squareRootOrNone(half * half - c[2] * c[0], half * half + std::abs(c[2] * c[0]));
+  if (root < 0.0) return roots;
+  if (root == 0.0) {
+    roots.add(-half / c[2], 0);
+    return roots;
+  }
+  // The root that does not cancel first; the other from the product of the roots.
+  const double sum = -(half + std::copysign(root, half));
+  double first = sum / c[2];
+  double second = c[0] / sum;
+  if (first > second) std::swap(first, second);
+  const int slope = signOf(c[2]);
+  roots.add(first, -slope);
+  roots.add(second, slope);
+  return roots;
+}
+
+/// The root in (low, high), where the polynomial is monotone and changes sign: Newton's method, kept inside by
+/// bisection.
+double bracketedRoot(const double* c, int degree, double low, double high, int sign_low) {
+  double x = 0.5 * (low + high);
+  for (int i = 0; i < 200; ++i) {
+    double value = c[degree];
+    double slope = 0.0;
+    for (int k = degree - 1; k >= 0; --k) {
+      slope = slope * x + value;
+      value = value * x + c[k];
+    }
+    if (value == 0.0) return x;
+    (signOf(value) == sign_low ? low : high) = x;
+    double next = x - value / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - x) <= 4e-16 * std::abs(next) || next == low || next == high) return next;
+    x = next;
+  }
+  return x;
+}
+
+/// Roots of a polynomial of degree 3 or 4 from its critical points.
+Roots solveBetween(const double* c, int degree, const Roots& critical) {
+  double bound = 0.0;
+  for (int i = 0; i < degree; ++i) bound = std::max(bound, std::abs(c[i] / c[degree]));
+  bound += 1.0;  // Cauchy: all roots lie within.
+  Roots roots;
+  double low = -bound;
+  int sign_low = signOf(c[degree]) * (degree % 2 == 0 ? 1 : -1);
+  for (int i = 0; i <= critical.count; ++i) {
+    const bool last = i == critical.count;
+    const double high = last ? bound : critical.roots[static_cast<std::size_t>(i)].value;
+    int sign_high = signOf(c[degree]);
+    if (!last) {
+      const double value = evaluate(c, degree, high);
+      sign_high = std::abs(value) <= kDoubleRootTolerance * magnitude(c, degree, high) ? 0 : signOf(value);
+    }
+    if (sign_low * sign_high < 0) roots.add(bracketedRoot(c, degree, low, high, sign_low), sign_high);
+    if (sign_high == 0 && roots.count < 4) roots.add(high, 0);
+    low = high;
+    sign_low = sign_high;
+  }
+  return roots;
+}
+
+}  // namespace
+
+double squareRootOrNone(double radicand, double scale) {
+  if (std::abs(radicand) <= kDoubleRootTolerance * scale) return 0.0;
+  return radicand > 0.0 ? std::sqrt(radicand) : -1.0;
+}
+
+Roots solveSinusoid(double k, double a, double b, double scale) {
+  Roots roots;
+  const double amplitude = std::hypot(a, b);
+  if (amplitude <= kNegligible * scale) {
+    roots.always = std::abs(k) <= kNegligible * scale;
+    return roots;
+  }
+  const double root = squareRootOrNone((amplitude - k) * (amplitude + k), amplitude * amplitude);
+  if (root < 0.0) return roots;
+  const double middle = std::atan2(b, a);
+  if (root == 0.0) {
+    roots.add(k < 0.0 ? middle : middle + kPi, 0);
+    return roots;
+  }
+  const double half_width = std::atan2(root, -k);
+  roots.add(middle - half_width, 1);
+  roots.add(middle + half_width, -1);
+  return roots;
+}
+
+Roots solvePolynomial(const double* c, int degree, double scale) {
+  while (degree > 0 && std::abs(c[degree]) <= kNegligible * scale) --degree;
+  Roots roots;
+  if (degree == 0) {
+    roots.always = std::abs(c[0]) <= kNegligible * scale;
+    return roots;
+  }
+  if (degree == 1) {
+    roots.add(-c[0] / c[1], signOf(c[1]));
+    return roots;
+  }
+  if (degree == 2) return solveQuadratic(c);
+  std::array<double, 4> derivative{};
+  for (int i = 1; i <= degree; ++i) derivative[static_cast<std::size_t>(i - 1)] = i * c[i];
+  return solveBetween(c, degree, solvePolynomial(derivative.data(), degree - 1, 0.0));
+}
+
+Roots solveSecondHarmonic(double k, double a, double b, double c, double d, double scale) {
+  if (std::hypot(c, d) <= kNegligible * scale) return solveSinusoid(k, a, b, scale);
+  const auto value = [&](double x) {
+    return k + a * std::cos(x) + b * std::sin(x) + c * std::cos(2.0 * x) + d * std::sin(2.0 * x);
+  };
+  double pole = 0.0;
+  for (int i = 1; i < 8; ++i) {
+    if (std::abs(value(i * kPi / 4.0)) > std::abs(value(pole))) pole = i * kPi / 4.0;
+  }
+  // y = x - (pole - pi), so that y = pi, where tan(y/2) is infinite, is the pole.
+  const double shift = pole - kPi;
+  const double cs = std::cos(shift);
+  const double ss = std::sin(shift);
+  const double c2 = std::cos(2.0 * shift);
+  const double s2 = std::sin(2.0 * shift);
+  const double ay = a * cs + b * ss;
+  const double by = b * cs - a * ss;
+  const double cy = c * c2 + d * s2;
+  const double dy = d * c2 - c * s2;
+  // (1 + t^2)^2 times the function, with t = tan(y/2).
+  const double quartic[5] = {k + ay + cy, 2.0 * by + 4.0 * dy, 2.0 * k - 6.0 * cy, 2.0 * by - 4.0 * dy, k - ay + cy};
+  Roots roots = solvePolynomial(quartic, 4, 0.0);
+  for (int i = 0; i < roots.count; ++i) {
+    Root& root = roots.roots[static_cast<std::size_t>(i)];
+    root.value = 2.0 * std::atan(root.value) + shift;
+  }
+  return roots;
+}
+
+}  // namespace screwline
