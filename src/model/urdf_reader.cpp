@@ -208,11 +208,13 @@ class ChainBuilder {
     double upper = (own.upper - source.offset) / source.multiplier;
     if (source.multiplier < 0.0) std::swap(lower, upper);
     JointLimits& limits = joint.limits;
+    require(std::max(limits.lower, lower) <= std::min(limits.upper, upper),
+            "joint " + inQuotes(mimic.name) + ": its limits allow joint " + inQuotes(joint.name) +
+                ", which it mimics, only " + numberText(lower) + " to " + numberText(upper) + ", but that has " +
+                numberText(limits.lower) + " to " + numberText(limits.upper));
     limits.lower = std::max(limits.lower, lower);
     limits.upper = std::min(limits.upper, upper);
     limits.velocity = std::min(limits.velocity, own.velocity / std::abs(source.multiplier));
-    require(limits.lower <= limits.upper, "joint " + inQuotes(mimic.name) + ": its limits leave joint " +
-                                              inQuotes(joint.name) + ", which it mimics, no value");
     if (joint.type == JointType::kContinuous && std::isfinite(limits.lower)) joint.type = JointType::kRevolute;
   }
 

@@ -18,8 +18,20 @@ std::string number(double value) {
   return numberText(value, 17);
 }
 
+/// A value without the rounding of the frames that were multiplied: 0.1 for 0.09999999999999999, pi/2 for its
+/// neighbours.
+double tidy(double value) {
+  constexpr double kFrameRounding = 1e-15;
+  constexpr double kDecimals = 1e12;
+  for (const double nearest :
+       {std::round(value * kDecimals) / kDecimals, std::round(value / kPi * 12.0) * (kPi / 12.0)}) {
+    if (std::abs(value - nearest) < kFrameRounding) return nearest;
+  }
+  return value;
+}
+
 std::string numbers(const Vector3& v) {
-  return number(v.x()) + " " + number(v.y()) + " " + number(v.z());
+  return number(tidy(v.x())) + " " + number(tidy(v.y())) + " " + number(tidy(v.z()));
 }
 
 std::string escaped(const std::string& text) {
