@@ -186,7 +186,7 @@ JointExtrema JointTrajectory::extrema(int joint) const {
 }
 
 JointExtrema JointTrajectory::scaledExtrema(int joint) const {
-  const JointExtrema& s = scaling_.extrema();
+  const JointExtrema s = scaling_.extrema();
   const double d = std::abs(delta_[joint]);
   const double r = inverse_duration_;
   const double ends[] = {start_[joint] + delta_[joint] * s.position.lower,

@@ -113,9 +113,10 @@ PiecewisePolynomial concatenate(const PiecewisePolynomial& first, const Piecewis
   for (const auto* motion : {&first, &second}) {
     const double start = motion == &first ? 0.0 : first.duration();
     for (std::size_t k = 0; k < motion->segments(); ++k) {
-      if (motion->length(k) <= 0.0) continue;
+      const double end = start + motion->breaks[k + 1];
+      if (motion->length(k) <= 0.0 || end <= breaks.back()) continue;  // Or so short that it vanishes beside the start.
       sources.emplace_back(motion, k);
-      breaks.push_back(start + motion->breaks[k + 1]);
+      breaks.push_back(end);
     }
   }
   if (sources.empty()) return second;

@@ -43,8 +43,9 @@ ProfileDraft searchDuration(const ProfileContext& context, const ViaBuilder& bui
 
 ProfileDraft fitVia(const ProfileContext& context, const ViaBuilder& build) {
   const double instant = context.waypoints()[1].time;
+  const std::optional<double> fraction = givenTau(context);
   if (instant > 0.0 && context.duration == 0.0) return searchDuration(context, build);
-  const double tau = instant > 0.0 ? instant / context.duration : givenTau(context).value_or(0.5);
+  const double tau = instant > 0.0 ? instant / context.duration : fraction.value_or(0.5);
   const double shortest = tightestUse(build(1.0, tau), context.limits).stretch;
   if (context.duration == 0.0 && shortest == 0.0 && !nothingMoves(context.waypoints())) {
     throw InputError(ErrorCode::kInvalidGoal, "duration is 0 and no finite limit bounds profile '" +

@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_TRAJECTORY_TIME_SCALING_H
 #define SCREWLINE_TRAJECTORY_TIME_SCALING_H
 
+#include <utility>
 #include <vector>
 
 #include "screwline/trajectory/piecewise_polynomial.h"
@@ -45,12 +46,13 @@ class TimeScaling {
   /// Exact peaks over [0, 1] in units of tau: peak(1), peak(2), peak(3) are C_v, C_a, C_j (v = C_v |delta| / T,
   /// a = C_a |delta| / T^2, j = C_j |delta| / T^3; infinite where the order below steps), the steps, the range of s,
   /// its integrals.
-  const JointExtrema& extrema() const { return extrema_; }
+  JointExtrema extrema() const { return extrema_; }
 
   int continuity() const { return continuity_; }  ///< See PiecewisePolynomial.
   bool isCycloidal() const { return cycloidal_; }
   bool isMonotone() const;                                       ///< True where s never turns back.
-  const PiecewisePolynomial& pieces() const { return pieces_; }  ///< Empty for the cycloidal scaling.
+  const PiecewisePolynomial& pieces() const& { return pieces_; }  ///< Empty for the cycloidal scaling.
+  PiecewisePolynomial pieces() && { return std::move(pieces_); }
   std::vector<double> breaks() const;                            ///< tau of the interior breakpoints.
 
  private:

@@ -1,0 +1,64 @@
+#ifndef SCREWLINE_TEST_UNIT_TRAJECTORY_SUPPORT_H
+#define SCREWLINE_TEST_UNIT_TRAJECTORY_SUPPORT_H
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "screwline/exception.h"
+#include "screwline/trajectory/plan.h"
+
+namespace screwline {
+namespace trajectory_test {
+
+inline VectorX vector(std::initializer_list<double> values) {
+  VectorX result(static_cast<Eigen::Index>(values.size()));
+  Eigen::Index i = 0;
+  for (double value : values) result[i++] = value;
+  return result;
+}
+
+/// The same limits for every joint.
+inline Limits limitsOf(int joints, double velocity, double acceleration, double jerk) {
+  return {VectorX::Constant(joints, velocity),
+          VectorX::Constant(joints, acceleration),
+          VectorX::Constant(joints, jerk),
+          {},
+          {}};
+}
+
+inline PlanRequest request(const std::string& profile, const std::vector<VectorX>& positions, const Limits& limits) {
+  PlanRequest result;
+  result.profile = profile;
+  result.limits = limits;
+  for (const auto& position : positions) {
+    Waypoint waypoint;
+    waypoint.position = position;
+    result.waypoints.push_back(waypoint);
+  }
+  return result;
+}
+
+/// What plan() throws; kSuccess where it does not.
+inline ErrorCode errorOf(const PlanRequest& request) {
+  try {
+    plan(request);
+  } catch (const InputError& error) {
+    return error.code();
+  }
+  return ErrorCode::kSuccess;
+}
+
+inline std::string messageOf(const PlanRequest& request) {
+  try {
+    plan(request);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace trajectory_test
+}  // namespace screwline
+
+#endif  // SCREWLINE_TEST_UNIT_TRAJECTORY_SUPPORT_H
