@@ -75,10 +75,11 @@ MotionState mirroredInTime(const MotionState& state) {
 JointTrajectory restToRest(const VectorX& start, const VectorX& goal, const Limits& limits) {
   const MotionState from{start, VectorX::Zero(start.size()), VectorX::Zero(start.size())};
   const MotionState to{goal, from.velocity, from.velocity};
-  const double duration = tightestUse(quintic(from, to, 1.0), limits).stretch;
+  double duration = tightestUse(quintic(from, to, 1.0), limits).stretch;
   if (duration == 0.0 && start != goal) {
     throw InputError(ErrorCode::kInvalidGoal, "no finite limit bounds the motion to the new start: give limits");
   }
+  if (start != goal) duration = std::max(duration, kShortestTime);
   return quintic(from, to, duration);
 }
 

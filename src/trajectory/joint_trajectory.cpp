@@ -53,7 +53,7 @@ JointTrajectory JointTrajectory::scaled(VectorX start, VectorX delta, TimeScalin
   trajectory.form_ = Form::kScaled;
   trajectory.joints_ = static_cast<int>(start.size());
   trajectory.duration_ = duration;
-  trajectory.inverse_duration_ = duration > 0.0 ? 1.0 / duration : 0.0;
+  trajectory.inverse_duration_ = duration > kNoTime ? 1.0 / duration : 0.0;
   trajectory.start_ = std::move(start);
   trajectory.delta_ = std::move(delta);
   trajectory.scaling_ = std::move(scaling);
@@ -65,7 +65,7 @@ JointTrajectory JointTrajectory::piecewise(PiecewisePolynomial motion) {
   trajectory.joints_ = motion.joints;
   trajectory.duration_ = motion.duration();
   for (std::size_t k = 0; k < motion.segments(); ++k) {
-    trajectory.inverse_lengths_.push_back(motion.length(k) > 0.0 ? 1.0 / motion.length(k) : 0.0);
+    trajectory.inverse_lengths_.push_back(motion.length(k) > kNoTime ? 1.0 / motion.length(k) : 0.0);
   }
   trajectory.pieces_ = std::move(motion);
   return trajectory;

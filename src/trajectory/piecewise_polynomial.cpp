@@ -8,10 +8,10 @@
 namespace screwline {
 namespace {
 
-/// 1 / h^order; a segment of no length holds, so all its derivatives are zero.
+/// 1 / h^order; a segment that takes no time holds, so all its derivatives are zero.
 double rate(double length, int order) {
   if (order == 0) return 1.0;
-  return length > 0.0 ? std::pow(length, -order) : 0.0;
+  return length > kNoTime ? std::pow(length, -order) : 0.0;
 }
 
 /// p(1 - u), by repeated synthetic division: exact for the small integers and stable for the rest.

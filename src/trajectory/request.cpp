@@ -23,6 +23,7 @@ void requireUsable(double value, const std::string& field) {
 void requireTime(double value, const std::string& field) {
   requireUsable(value, field);
   if (value < 0.0) refuse(field + " is " + number(value) + " s, it must not be negative");
+  if (value > 0.0 && value < kShortestTime) refuse(field + " is " + number(value) + " s, below the least of 1e-06 s");
 }
 
 void requireVector(const VectorX& values, int joints, const std::string& field) {
@@ -103,7 +104,8 @@ void validateTimes(const PlanRequest& request, const Profile& profile) {
     requireTime(time, field);
     if (time == 0.0) continue;
     if (i == 0) refuse(field + " is " + number(time) + " s, the first waypoint is at 0 s");
-    if (time <= previous) refuse(field + " is " + number(time) + " s, it must be after " + number(previous) + " s");
+    if (time < previous + 0.999 * kShortestTime)
+      refuse(field + " is " + number(time) + " s, it must be after " + number(previous) + " s");
     if (!profile.via_times && i + 1 < request.waypoints.size()) {
       refuse(field + " is " + number(time) + " s, profile '" + profile.info.name +
              "' takes no time at intermediate waypoints");
@@ -115,7 +117,7 @@ void validateTimes(const PlanRequest& request, const Profile& profile) {
   if (last_given && std::abs(previous - request.duration) > 1e-9 * request.duration) {
     refuse("duration is " + number(request.duration) + " s, the last waypoint's time is " + number(previous) + " s");
   }
-  if (!last_given && previous >= request.duration) {
+  if (!last_given && previous > request.duration - 0.999 * kShortestTime) {
     refuse("duration is " + number(request.duration) + " s, a waypoint before the last is at " + number(previous) +
            " s");
   }

@@ -40,7 +40,7 @@ ProfileDraft scaleBetweenEnds(const ProfileContext& context, const TimeScaling& 
     throw InputError(ErrorCode::kInvalidGoal, "duration is 0 and no finite limit bounds profile '" +
                                                   context.request.profile + "': give a duration or a limit");
   }
-  const double duration = context.duration > 0.0 ? context.duration : shortest;
+  const double duration = context.duration > 0.0 ? context.duration : noLessThanShortest(shortest);
   ProfileDraft draft;
   draft.trajectory = JointTrajectory::scaled(start, delta, scaling, duration);
   const LimitUse use = tightestUse(draft.trajectory, context.limits);
@@ -53,11 +53,11 @@ BlendedMove shortestTrapezoid(const VectorX& delta, const Limits& limits) {
   const double v = scalarBound(limits.velocity, delta);
   const double a = scalarBound(limits.acceleration, delta);
   if (delta.isZero(0.0)) return {1.0 / 3.0, 0.0};
-  if (std::isinf(a)) return {1.0 / 3.0, std::isinf(v) ? 1.0 : 1.5 / v};
-  if (v * v >= a) return {0.5, 2.0 / std::sqrt(a)};
+  if (std::isinf(a)) return {1.0 / 3.0, std::isinf(v) ? 1.0 : noLessThanShortest(1.5 / v)};
+  if (v * v >= a) return {0.5, noLessThanShortest(2.0 / std::sqrt(a))};
   const double ramp = v / a;
   const double duration = 1.0 / v + ramp;
-  return {ramp / duration, duration};
+  return {ramp / duration, noLessThanShortest(duration)};
 }
 
 double blendWithin(const VectorX& delta, const Limits& limits, double duration) {

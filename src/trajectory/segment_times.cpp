@@ -108,9 +108,10 @@ std::vector<double> segmentWeights(const std::vector<Waypoint>& waypoints, const
     for (std::size_t k = 1; k < waypoints.size(); ++k)
       weights[k - 1] = (waypoints[k].position - waypoints[k - 1].position).norm();
   }
-  double least = 0.0;
-  for (double w : weights) least = w > 0.0 && (least == 0.0 || w < least) ? w : least;
-  for (double& w : weights) w = w > 0.0 ? w : least > 0.0 ? least : 1.0;
+  const double most = *std::max_element(weights.begin(), weights.end());
+  double least = most > 0.0 ? most : 1.0;
+  for (double w : weights) least = w > 1e-3 * most && w < least ? w : least;
+  for (double& w : weights) w = std::max(w, least);
   return weights;
 }
 
@@ -147,7 +148,7 @@ ProfileDraft fitTimes(const ProfileContext& context, const TimedBuilder& build, 
   const auto stretch = [&](double tail) {
     return tightestUse(build(withTail(times, known, weights, tail / total)), context.limits).stretch;
   };
-  const double tail = scalable ? total * stretch(total) : searchShortest(stretch, total);
+  const double tail = scalable ? noLessThanShortest(total * stretch(total)) : searchShortest(stretch, total);
   if (scalable && tail == 0.0) refuseUnbounded(context);
   if (tail == 0.0) refuseAlways(context, tightestUse(build(withTail(times, known, weights, 1.0)), context.limits));
   times = withTail(times, known, weights, tail / total);

@@ -51,7 +51,7 @@ ProfileDraft fitVia(const ProfileContext& context, const ViaBuilder& build) {
     throw InputError(ErrorCode::kInvalidGoal, "duration is 0 and no finite limit bounds profile '" +
                                                   context.request.profile + "': give a duration or a limit");
   }
-  const double duration = context.duration > 0.0 ? context.duration : shortest;
+  const double duration = context.duration > 0.0 ? context.duration : noLessThanShortest(shortest);
   ProfileDraft draft{build(duration, tau), {0.0, tau * duration, duration}, {}};
   const LimitUse use = tightestUse(draft.trajectory, context.limits);
   if (use.value > use.bound * (1.0 + kLimitTolerance)) refuseDuration(context, use, shortest);

@@ -45,6 +45,9 @@ void validateLimits(const Limits& limits, int joints);
 /// Each order multiplied by its factor in (0, 1]. @throws InputError for a factor outside.
 Limits scaledLimits(const Limits& limits, double velocity_scaling, double acceleration_scaling, double jerk_scaling);
 
+/// [s] No motion that moves is planned shorter than this, and no given time is taken below it.
+constexpr double kShortestTime = 1e-6;
+
 /// A peak may pass its limit by this fraction: rounding of the exact extrema, nothing more.
 constexpr double kLimitTolerance = 1e-9;
 

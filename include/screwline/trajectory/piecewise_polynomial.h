@@ -8,6 +8,9 @@
 
 namespace screwline {
 
+/// [s] A piece this short takes no time: cubes of its rate would leave the range of a double.
+constexpr double kNoTime = 1e-60;
+
 /// Exact figures of one joint's motion, in rad (or m) and s. `velocity`, `acceleration` and `jerk` are the largest
 /// magnitudes inside the pieces; a step is the largest jump of the order below at a breakpoint or, where the motion
 /// joins rest, at an end.

@@ -58,6 +58,11 @@ ProfileContext validateRequest(const PlanRequest& request, const Profile& profil
 /// Throws InputError(kLimitsInfeasible): what breaks which limit in the given duration, and the shortest feasible one.
 [[noreturn]] void refuseDuration(const ProfileContext& context, const LimitUse& use, double shortest);
 
+/// The shortest duration of a motion, kept above the resolution of time; 0 (nothing moves) stays 0.
+inline double noLessThanShortest(double duration) {
+  return duration > 0.0 && duration < kShortestTime ? kShortestTime : duration;
+}
+
 /// One scaling for all joints, from the first waypoint to the last, in the given duration or the shortest that the
 /// finite orders allow.
 ProfileDraft scaleBetweenEnds(const ProfileContext& context, const TimeScaling& scaling);

@@ -18,8 +18,8 @@ MatrixX positionsOf(const std::vector<Waypoint>& waypoints);
 bool nothingMoves(const std::vector<Waypoint>& waypoints);
 
 /// How long each segment takes beside the others: its own shortest rest-to-rest 3-4-5 motion under the limits (its
-/// length where nothing is limited). A repeated waypoint counts as the shortest segment that moves, so that no segment
-/// has no time.
+/// length where nothing is limited). A repeated waypoint counts as the shortest segment above a thousandth of the
+/// longest, so that no segment has no time.
 std::vector<double> segmentWeights(const std::vector<Waypoint>& waypoints, const Limits& limits);
 
 /// The least duration found at which `stretch` (tightestUse) is at most 1; 0 where none is. Not monotone in general

@@ -50,10 +50,10 @@ class TimeScaling {
 
   int continuity() const { return continuity_; }  ///< See PiecewisePolynomial.
   bool isCycloidal() const { return cycloidal_; }
-  bool isMonotone() const;                                       ///< True where s never turns back.
+  bool isMonotone() const;                                        ///< True where s never turns back.
   const PiecewisePolynomial& pieces() const& { return pieces_; }  ///< Empty for the cycloidal scaling.
   PiecewisePolynomial pieces() && { return std::move(pieces_); }
-  std::vector<double> breaks() const;                            ///< tau of the interior breakpoints.
+  std::vector<double> breaks() const;  ///< tau of the interior breakpoints.
 
  private:
   /// Row k holds the coefficients of u^k in s, s', s'', s''' (by tau), so that one pass gives all four.
