@@ -57,7 +57,7 @@ std::vector<std::string> Task::names() const {
   return names;
 }
 
-MatrixX Task::select(const Eigen::Ref<const Matrix6X>& J) const {
+MatrixX Task::select(const Matrix6X& J) const {
   MatrixX selected(size_, J.cols());
   for (int i = 0; i < size_; ++i) selected.row(i) = J.row(row(i));
   return selected;

@@ -29,7 +29,7 @@ class Task {
   std::vector<std::string> names() const;
 
   /// The task's rows of a 6xn matrix, in task order: size() x n. Allocates.
-  MatrixX select(const Eigen::Ref<const Matrix6X>& J) const;
+  MatrixX select(const Matrix6X& J) const;
   /// The same of a 6-vector.
   VectorX select(const Vector6& v) const;
 

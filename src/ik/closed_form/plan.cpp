@@ -1,5 +1,6 @@
 #include "screwline/ik/closed_form/plan.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "screwline/spatial/rotation.h"
@@ -130,13 +131,22 @@ Matrix3 ClosedFormPlan::turnOf(int first_joint, const double* q) const {
   return R;
 }
 
+int ClosedFormPlan::signOf(const BranchPart& branch_part, const PlanSolution& solution) {
+  int sign = branch_part.orientation;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (branch_part.signs[i]) sign *= solution.sign[i];
+  }
+  return sign;
+}
+
+bool ClosedFormPlan::isDouble(const PlanSolution& solution) const {
+  return std::any_of(parts_.begin(), parts_.end(), [&](const BranchPart& part) { return signOf(part, solution) == 0; });
+}
+
 std::string ClosedFormPlan::branchName(const PlanSolution& solution) const {
   std::string name;
   for (const BranchPart& part : parts_) {
-    int sign = part.orientation;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (part.signs[i]) sign *= solution.sign[i];
-    }
+    const int sign = signOf(part, solution);
     name += (name.empty() ? "" : ", ") + (sign > 0 ? part.positive : sign < 0 ? part.negative : part.neutral);
   }
   if (solution.rank > 0) name += ", number " + std::to_string(solution.rank + 1);

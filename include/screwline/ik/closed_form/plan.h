@@ -57,6 +57,8 @@ class ClosedFormPlan {
   /// As "position by three joints (axes that meet), spherical wrist".
   const std::string& method() const { return method_; }
   const std::vector<BranchPart>& branchParts() const { return parts_; }
+  /// Whether two solutions meet in this one: a part of its name is neutral.
+  bool isDouble(const PlanSolution& solution) const;
   /// "shoulder front, elbow up"; empty where there is one branch only.
   std::string branchName(const PlanSolution& solution) const;
 
@@ -71,6 +73,7 @@ class ClosedFormPlan {
   bool reproduces(const SerialChain& chain, const Task& task) const;
   void nameBranches(const SerialChain& chain);
   void orient(const SerialChain& chain, BranchPart& branch_part) const;
+  static int signOf(const BranchPart& branch_part, const PlanSolution& solution);
   double meaningOf(const BranchPart& branch_part, const double* q) const;
 
   void solvePosition(const Vector3& goal, const double* preferred, PlanSolutions& solutions) const;

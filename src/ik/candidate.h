@@ -1,0 +1,37 @@
+#ifndef SCREWLINE_SRC_IK_CANDIDATE_H
+#define SCREWLINE_SRC_IK_CANDIDATE_H
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "screwline/ik/inverse_kinematics.h"
+#include "screwline/ik/task_error.h"
+
+namespace screwline {
+
+/// Solutions closer than this in every joint are one.
+constexpr double kSameSolution = 1e-6;
+/// Errors, by forward kinematics, that a solution may have: m and rad.
+constexpr double kSolutionTolerance = 1e-9;
+
+/// A configuration that a solver proposes, on its way to becoming an IkSolution.
+struct Candidate {
+  VectorX q;
+  std::string branch;
+  bool merged = false;    ///< Two solutions that meet here: singular by nature.
+  std::vector<int> free;  ///< Joints that parametrise a continuum; empty: isolated.
+  /// Member of the same branch of the continuum with the free joints at the values that `preferred` has; false where
+  /// there is none.
+  std::function<bool(const VectorX& preferred, VectorX& q)> member;
+};
+
+/// q with revolute values brought next to `reference` by full turns.
+VectorX nearestTurns(const SerialChain& chain, VectorX q, const VectorX& reference);
+
+/// Largest joint difference, revolute ones modulo full turns.
+double largestDifference(const SerialChain& chain, const VectorX& a, const VectorX& b);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SRC_IK_CANDIDATE_H

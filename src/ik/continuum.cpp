@@ -1,0 +1,214 @@
+#include "continuum.h"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "turns.h"
+
+namespace screwline {
+namespace {
+
+constexpr double kDifference = 1e-5;  // [rad, m] step of the central differences.
+constexpr double kStep = kPi / 90.0;  // [rad] along a continuum.
+constexpr double kMoves = 1e-7;       // A joint whose share of every tangent is below does not move.
+constexpr double kLimitBand = 1e-9;
+constexpr int kMaxNearestIterations = 30;
+
+double stepOf(const SerialChain& chain, int joint) {
+  return chain.joint(joint).isRevolute() ? kStep : 0.02 * chain.characteristicLength();
+}
+
+bool isWithinLimits(const SerialChain& chain, const VectorX& q) {
+  return chooseTurns(chain, q, q, true, false, kLimitBand).within_limits;
+}
+
+/// Members as a function of the free joints' values, on one sheet: revolute values follow on from `q`.
+class Family {
+ public:
+  Family(const SerialChain& chain, const Candidate& candidate) : chain_(chain), candidate_(candidate) {}
+
+  bool at(const VectorX& parameters, const VectorX& near, VectorX& q) const {
+    VectorX preferred = near;
+    for (Eigen::Index i = 0; i < parameters.size(); ++i)
+      preferred[candidate_.free[static_cast<std::size_t>(i)]] = parameters[i];
+    if (!candidate_.member(preferred, q)) return false;
+    q = nearestTurns(chain_, q, near);
+    // The free joints themselves are set, not wrapped.
+    for (int joint : candidate_.free) q[joint] = preferred[joint];
+    return true;
+  }
+
+  VectorX parameters(const VectorX& q) const {
+    VectorX values(static_cast<Eigen::Index>(candidate_.free.size()));
+    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = q[candidate_.free[static_cast<std::size_t>(i)]];
+    return values;
+  }
+
+  /// k x n derivatives of the members by the parameters.
+  MatrixX tangents(const VectorX& q) const {
+    MatrixX rows(static_cast<Eigen::Index>(candidate_.free.size()), q.size());
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      VectorX ahead = q;
+      VectorX behind = q;
+      VectorX parameter = parameters(q);
+      parameter[i] += kDifference;
+      at(parameter, q, ahead);
+      parameter[i] -= 2.0 * kDifference;
+      at(parameter, q, behind);
+      rows.row(i) = ((ahead - behind) / (2.0 * kDifference)).transpose();
+    }
+    return rows;
+  }
+
+ private:
+  const SerialChain& chain_;
+  const Candidate& candidate_;
+};
+
+double distanceTo(const SerialChain& chain, const VectorX& q, const VectorX& seed) {
+  return (nearestTurns(chain, q, seed) - seed).norm();
+}
+
+/// Gauss-Newton on the distance to the seed, steps halved until they help.
+VectorX nearestMember(const SerialChain& chain, const Family& family, const VectorX& start, const VectorX& seed) {
+  VectorX q = nearestTurns(chain, start, seed);
+  double distance = (q - seed).norm();
+  for (int i = 0; i < kMaxNearestIterations; ++i) {
+    const MatrixX T = family.tangents(q);
+    const VectorX step = T.transpose().colPivHouseholderQr().solve(seed - q);
+    bool moved = false;
+    for (double share = 1.0; share > 1e-3 && !moved; share *= 0.5) {
+      VectorX next;
+      if (!family.at(family.parameters(q) + share * step, q, next)) continue;
+      if ((next - seed).norm() >= distance) continue;
+      q = next;
+      moved = true;
+    }
+    if (!moved) break;
+    const double gain = distance - (q - seed).norm();
+    distance -= gain;
+    if (gain <= 1e-15 * (1.0 + distance)) break;
+  }
+  return q;
+}
+
+/// The member within limits nearest to the seed along the first parameter, where `q` itself is not within.
+bool nearestWithinLimits(const SerialChain& chain, const Family& family, const Candidate& candidate,
+                         const VectorX& seed, VectorX& q) {
+  const int joint = candidate.free.front();
+  const double step = stepOf(chain, joint);
+  const int count = chain.joint(joint).isRevolute() ? 180 : 500;
+  double least = std::numeric_limits<double>::infinity();
+  VectorX best;
+  VectorX outside;
+  VectorX member = q;
+  for (int direction : {1, -1}) {
+    VectorX near = q;
+    VectorX parameters = family.parameters(q);
+    for (int i = 0; i < count; ++i) {
+      parameters[0] += direction * step;
+      if (!family.at(parameters, near, member)) break;
+      if (isWithinLimits(chain, member) && distanceTo(chain, member, seed) < least) {
+        least = distanceTo(chain, member, seed);
+        best = member;
+        outside = near;
+      }
+      near = member;
+    }
+  }
+  if (!std::isfinite(least)) return false;
+  // Back towards the outside neighbour, up to the limit itself.
+  for (int i = 0; i < 40 && !isWithinLimits(chain, outside); ++i) {
+    VectorX middle;
+    if (!family.at(0.5 * (family.parameters(best) + family.parameters(outside)), best, middle)) break;
+    (isWithinLimits(chain, middle) ? best : outside) = middle;
+  }
+  q = best;
+  return true;
+}
+
+bool breaksLimits(const SerialChain& chain, const VectorX& q, const std::vector<int>& moving) {
+  for (int joint : moving) {
+    const JointLimits& limits = chain.joint(joint).limits;
+    if (q[joint] < limits.lower - kLimitBand || q[joint] > limits.upper + kLimitBand) return true;
+  }
+  return false;
+}
+
+/// Walks along one parameter until a limit is met, a full turn is done, or the continuum ends; widens the ranges as it
+/// goes.
+void walk(const SerialChain& chain, const Family& family, const Candidate& candidate, Eigen::Index parameter,
+          double direction, Continuum& continuum) {
+  const int joint = candidate.free[static_cast<std::size_t>(parameter)];
+  const double step = direction * stepOf(chain, joint);
+  const auto widen = [&](const VectorX& q) {
+    for (std::size_t i = 0; i < continuum.free_joints.size(); ++i) {
+      const JointLimits& limits = chain.joint(continuum.free_joints[i]).limits;
+      const double value = std::clamp(q[continuum.free_joints[i]], limits.lower, limits.upper);
+      const auto k = static_cast<Eigen::Index>(i);
+      continuum.lower[k] = std::min(continuum.lower[k], value);
+      continuum.upper[k] = std::max(continuum.upper[k], value);
+    }
+  };
+  VectorX inside = continuum.nearest;
+  const int count = chain.joint(joint).isRevolute() ? 180 : 5000;
+  for (int i = 0; i < count; ++i) {
+    VectorX parameters = family.parameters(inside);
+    parameters[parameter] += step;
+    VectorX next;
+    const bool exists = family.at(parameters, inside, next);
+    if (exists && !breaksLimits(chain, next, continuum.free_joints)) {
+      inside = next;
+      widen(inside);
+      continue;
+    }
+    double low = 0.0;
+    double high = step;
+    for (int k = 0; k < 60 && std::abs(high - low) > 1e-11; ++k) {
+      parameters = family.parameters(inside);
+      parameters[parameter] += 0.5 * (low + high);
+      const bool good = family.at(parameters, inside, next) && !breaksLimits(chain, next, continuum.free_joints);
+      if (good) widen(next);
+      (good ? low : high) = 0.5 * (low + high);
+    }
+    return;
+  }
+}
+
+MatrixX orthonormalRows(const MatrixX& rows) {
+  const Eigen::HouseholderQR<MatrixX> qr(rows.transpose());
+  MatrixX Q = qr.householderQ() * MatrixX::Identity(rows.cols(), rows.rows());
+  for (Eigen::Index i = 0; i < Q.cols(); ++i) {
+    if (Q.col(i).dot(rows.row(i).transpose()) < 0.0) Q.col(i) = -Q.col(i);
+  }
+  return Q.transpose();
+}
+
+}  // namespace
+
+Continuum describeContinuum(const SerialChain& chain, const Candidate& candidate, const VectorX& seed,
+                            bool ignore_limits) {
+  const Family family(chain, candidate);
+  Continuum continuum;
+  VectorX q = nearestMember(chain, family, candidate.q, seed);
+  if (!ignore_limits && !isWithinLimits(chain, q)) nearestWithinLimits(chain, family, candidate, seed, q);
+  continuum.nearest = chooseTurns(chain, q, seed, true, ignore_limits, kLimitBand).q;
+  continuum.directions = orthonormalRows(family.tangents(continuum.nearest));
+  for (int i = 0; i < chain.size(); ++i) {
+    if (continuum.directions.col(i).cwiseAbs().maxCoeff() > kMoves) continuum.free_joints.push_back(i);
+  }
+  const auto count = static_cast<Eigen::Index>(continuum.free_joints.size());
+  continuum.lower = VectorX::Constant(count, std::numeric_limits<double>::infinity());
+  continuum.upper = -continuum.lower;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    continuum.lower[i] = continuum.upper[i] = continuum.nearest[continuum.free_joints[static_cast<std::size_t>(i)]];
+  }
+  for (std::size_t parameter = 0; parameter < candidate.free.size(); ++parameter) {
+    for (double direction : {-1.0, 1.0}) {
+      walk(chain, family, candidate, static_cast<Eigen::Index>(parameter), direction, continuum);
+    }
+  }
+  return continuum;
+}
+
+}  // namespace screwline

@@ -1,0 +1,244 @@
+#include "screwline/ik/inverse_kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ik_request_check.h"
+#include "plan_candidates.h"
+#include "screwline/exception.h"
+#include "screwline/ik/numerical/numerical_solver.h"
+#include "screwline/kinematics/singularity.h"
+#include "solution_builder.h"
+#include "turns.h"
+
+namespace screwline {
+namespace {
+
+constexpr int kClosestRestarts = 8;  // Starts, beside the seed, for the best reachable configuration.
+
+bool isNearer(const IkSolution& a, const IkSolution& b) {
+  if (a.distance != b.distance) return a.distance < b.distance;
+  return std::lexicographical_compare(a.position.data(), a.position.data() + a.position.size(), b.position.data(),
+                                      b.position.data() + b.position.size());
+}
+
+/// A redundant chain's solution lies on its self-motion; told here to first order, its range is not traced.
+void describeRedundancy(const SerialChain& chain, const Task& task, IkSolution& solution) {
+  Matrix6X J(6, chain.size());
+  geometricJacobian(chain, solution.position, J);
+  solution.self_motion = taskRank(task.select(J)).self_motions;
+  for (int i = 0; i < chain.size(); ++i) {
+    if (solution.self_motion.rows() > 0 && solution.self_motion.col(i).cwiseAbs().maxCoeff() > 1e-9)
+      solution.free_joints.push_back(i);
+  }
+  const auto count = static_cast<Eigen::Index>(solution.free_joints.size());
+  solution.self_motion_lower.resize(count);
+  solution.self_motion_upper.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    solution.self_motion_lower[i] = solution.self_motion_upper[i] =
+        solution.position[solution.free_joints[static_cast<std::size_t>(i)]];
+  }
+}
+
+}  // namespace
+
+struct InverseKinematics::Implementation {
+  Implementation(const SerialChain& chain_in, const Task& task_in)
+      : chain(chain_in), task(task_in), plan(planFor(chain, task)) {
+    if (plan) {
+      method = "closed form: " + plan->plan.method();
+      if (plan->task.size() < task.size()) method += "; the other rows of the task are checked";
+    } else {
+      method = "numerical search (Levenberg-Marquardt from many starts)";
+    }
+  }
+
+  std::vector<Candidate> candidates(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
+  void keep(const IkRequest& request, const std::vector<Candidate>& candidates, const SolutionBuilder& builder,
+            IkResult& result) const;
+  void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
+  void conclude(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
+  std::string account(const IkRequest& request, const IkResult& result) const;
+
+  SerialChain chain;
+  Task task;
+  std::optional<TaskPlan> plan;
+  std::string method;
+};
+
+std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkRequest& request,
+                                                                     const SolutionBuilder& builder,
+                                                                     IkResult& result) const {
+  if (plan) {
+    std::vector<Candidate> found = candidatesOf(*plan, chain, request.target, builder.seed());
+    result.complete =
+        plan->task.size() == task.size() ||
+        std::all_of(found.begin(), found.end(), [](const Candidate& candidate) { return candidate.free.empty(); });
+    // Rows beyond the plan's are met by some of its solutions, and by some members of a continuum at most.
+    if (plan->task.size() == task.size()) return found;
+    for (Candidate& candidate : found) candidate.free.clear();
+    return found;
+  }
+  SearchOptions options;
+  options.descent.honour_limits = !request.ignore_limits;
+  options.descent.rotation_weight = request.rotation_weight;
+  options.timeout = request.timeout;
+  options.max_solutions = request.max_solutions;
+  const SearchResult search_result = search(chain, task, request.target, {builder.seed()}, options);
+  result.timed_out = search_result.timed_out;
+  std::vector<Candidate> found;
+  for (const VectorX& q : search_result.solutions) {
+    Candidate candidate;
+    candidate.q = q;
+    found.push_back(candidate);
+  }
+  return found;
+}
+
+void InverseKinematics::Implementation::keep(const IkRequest& request, const std::vector<Candidate>& candidates,
+                                             const SolutionBuilder& builder, IkResult& result) const {
+  for (const Candidate& candidate : candidates) {
+    std::optional<IkSolution> solution = builder.build(candidate);
+    if (!solution) {
+      // Rows that the plan does not know reject solutions rightly; its own rows never should.
+      if (plan && plan->task.size() == task.size()) result.complete = false;
+      continue;
+    }
+    if (!solution->within_limits && !request.ignore_limits) {
+      ++result.outside_limits;
+      continue;
+    }
+    if (!matchesBranch(solution->branch, request.branch)) continue;
+    if (chain.size() > task.size()) describeRedundancy(chain, task, *solution);
+    if (!request.all_turns) {
+      result.solutions.push_back(*solution);
+      continue;
+    }
+    for (const VectorX& q : allTurns(chain, solution->position, request.ignore_limits, kSolutionTolerance)) {
+      IkSolution turned = *solution;
+      turned.position = q;
+      turned.distance = (q - builder.seed()).norm();
+      result.solutions.push_back(turned);
+    }
+  }
+}
+
+/// A seed that solves the pose is the answer nearest to itself: where rounding at a double root moved it, it is put
+/// back.
+void InverseKinematics::Implementation::admitSeed(const SolutionBuilder& builder, IkResult& result) const {
+  if (result.solutions.empty() || !builder.seedSolves()) return;
+  IkSolution& nearest = *std::min_element(result.solutions.begin(), result.solutions.end(), isNearer);
+  if (nearest.distance <= 1e-12) return;
+  IkSolution seed = nearest;
+  const IkSolution measured = builder.describe(builder.seed());
+  seed.position = measured.position;
+  seed.position_error = measured.position_error;
+  seed.orientation_error = measured.orientation_error;
+  seed.joint_error = measured.joint_error;
+  seed.manipulability = measured.manipulability;
+  seed.within_limits = measured.within_limits;
+  seed.distance = 0.0;
+  const bool same =
+      (nearest.position - seed.position).cwiseAbs().maxCoeff() <= kSameSolution || nearest.self_motion.rows() > 0;
+  if (same) {
+    nearest = seed;
+  } else {
+    result.solutions.push_back(seed);
+  }
+}
+
+std::string InverseKinematics::Implementation::account(const IkRequest& request, const IkResult& result) const {
+  const std::string excluded = result.outside_limits > 0
+                                   ? ", " + std::to_string(result.outside_limits) + " more break joint limits"
+                                   : std::string();
+  std::string incomplete;
+  if (!result.complete) {
+    incomplete = plan ? "; the list may be incomplete: a continuum was met whose members had to be searched"
+                      : "; the list may be incomplete: found by numerical search";
+  }
+  switch (result.status) {
+    case IkStatus::kSolved: {
+      const std::size_t count = result.solutions.size();
+      return std::to_string(count) + (count == 1 ? " solution" : " solutions") + excluded + incomplete;
+    }
+    case IkStatus::kOutsideLimits:
+      if (result.outside_limits > 0) {
+        return "no solution within limits: " + std::to_string(result.outside_limits) + " break joint limits" +
+               incomplete;
+      }
+      return "no solution on branch '" + request.branch + "'" + incomplete;
+    case IkStatus::kUnreachable:
+      return "proved unreachable: no joint values reach the pose; nearest reachable at distance " +
+             std::to_string(result.distance_to_reachable);
+    case IkStatus::kNotFound:
+      break;
+  }
+  return std::string("no solution found, which proves nothing") + (result.timed_out ? " (time ran out)" : "");
+}
+
+void InverseKinematics::Implementation::conclude(const IkRequest& request, const SolutionBuilder& builder,
+                                                 IkResult& result) const {
+  std::sort(result.solutions.begin(), result.solutions.end(), isNearer);
+  const auto limit = static_cast<std::size_t>(request.max_solutions);
+  if (limit > 0 && result.solutions.size() > limit) {
+    result.solutions.resize(limit);
+    result.complete = false;
+  }
+  if (!result.solutions.empty()) {
+    result.status = IkStatus::kSolved;
+    return;
+  }
+  SearchOptions options;
+  options.descent.honour_limits = !request.ignore_limits;
+  options.descent.rotation_weight = request.rotation_weight;
+  options.timeout = request.timeout;
+  options.restarts = kClosestRestarts;
+  const DescentResult closest = closestReachable(chain, task, request.target, {builder.seed()}, options);
+  result.closest = builder.describe(closest.q);
+  result.distance_to_reachable =
+      std::hypot(result.closest.position_error, request.rotation_weight * result.closest.orientation_error);
+}
+
+InverseKinematics::InverseKinematics(const SerialChain& chain, const Task& task)
+    : implementation_(std::make_unique<const Implementation>(chain, task)) {}
+InverseKinematics::~InverseKinematics() = default;
+InverseKinematics::InverseKinematics(InverseKinematics&&) noexcept = default;
+
+const SerialChain& InverseKinematics::chain() const {
+  return implementation_->chain;
+}
+const Task& InverseKinematics::task() const {
+  return implementation_->task;
+}
+const std::string& InverseKinematics::method() const {
+  return implementation_->method;
+}
+bool InverseKinematics::complete() const {
+  return implementation_->plan.has_value();
+}
+
+std::vector<std::string> InverseKinematics::branches() const {
+  return implementation_->plan ? branchNamesOf(implementation_->plan->plan) : std::vector<std::string>();
+}
+
+IkResult InverseKinematics::solve(const IkRequest& request) const {
+  const Implementation& self = *implementation_;
+  checkRequest(self.chain, self.task, request, branches());
+  const SolutionBuilder builder(self.chain, self.task, request);
+  IkResult result;
+  result.method = self.method;
+  const std::vector<Candidate> candidates = joinEqual(self.chain, self.candidates(request, builder, result));
+  self.keep(request, candidates, builder, result);
+  self.admitSeed(builder, result);
+  const bool existed = result.outside_limits > 0 || !result.solutions.empty();
+  self.conclude(request, builder, result);
+  if (result.solutions.empty()) {
+    const bool other_branch = !request.branch.empty() && !candidates.empty();
+    result.status = existed || other_branch ? IkStatus::kOutsideLimits
+                                            : (result.complete ? IkStatus::kUnreachable : IkStatus::kNotFound);
+  }
+  result.message = self.account(request, result);
+  return result;
+}
+
+}  // namespace screwline

@@ -1,0 +1,51 @@
+#include "task_residual.h"
+
+#include <cmath>
+
+#include "screwline/spatial/rotation.h"
+
+namespace screwline {
+namespace {
+
+/// Inverse of the right Jacobian of the rotation group: with exp(r) = R_target R^T, a turn w of R changes r by -this w
+/// (Sola, Deray, Atchuthan 2018, eq. 144).
+Matrix3 inverseRightJacobian(const Vector3& r) {
+  const double angle = r.norm();
+  const Matrix3 S = skew(r);
+  // (1 - (angle / 2) cot(angle / 2)) / angle^2 by series where the quotient would lose its digits.
+  const double factor = angle < 1e-2 ? 1.0 / 12.0 + angle * angle / 720.0
+                                     : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
+  return Matrix3::Identity() + 0.5 * S + factor * S * S;
+}
+
+}  // namespace
+
+TaskResidual::TaskResidual(const SerialChain& chain, const Task& task, const Pose& target, double rotation_weight)
+    : chain_(&chain),
+      task_(&task),
+      target_(&target),
+      rotation_weight_(rotation_weight),
+      has_rotation_(task.rotationCount() > 0),
+      J_(6, chain.size()) {}
+
+void TaskResidual::evaluate(TaskPoint& point) {
+  const Pose X_BT = geometricJacobian(*chain_, point.q, J_);
+  point.error = taskError(*task_, *target_, X_BT);
+  if (has_rotation_) {
+    const bool whole = task_->rotationCount() == 3;
+    const Vector3 r = whole ? Vector3(point.error.twist.tail<3>()) : rotationVector(target_->R * X_BT.R.transpose());
+    const Matrix3 D = inverseRightJacobian(r);
+    for (Eigen::Index i = 0; i < J_.cols(); ++i) J_.col(i).tail<3>() = (D * J_.col(i).tail<3>()).eval();
+  }
+  point.residual.resize(task_->size());
+  point.J.resize(task_->size(), J_.cols());
+  for (int i = 0; i < task_->size(); ++i) {
+    const int row = task_->row(i);
+    const double weight = row < 3 ? 1.0 : rotation_weight_;
+    point.residual[i] = weight * point.error.twist[row];
+    point.J.row(i) = weight * J_.row(row);
+  }
+  point.cost = 0.5 * point.residual.squaredNorm();
+}
+
+}  // namespace screwline

@@ -1,0 +1,38 @@
+#ifndef SCREWLINE_SRC_IK_PLAN_CANDIDATES_H
+#define SCREWLINE_SRC_IK_PLAN_CANDIDATES_H
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "candidate.h"
+#include "screwline/ik/closed_form/plan.h"
+
+namespace screwline {
+
+/// A plan with the rows that it solves: the task's, or, where the chain has fewer joints than the task has rows, as
+/// many of them.
+struct TaskPlan {
+  ClosedFormPlan plan;
+  Task task;
+};
+
+/// Empty where no closed form is known.
+std::optional<TaskPlan> planFor(const SerialChain& chain, const Task& task);
+
+/// All solutions of the plan, its continua with their members.
+std::vector<Candidate> candidatesOf(const TaskPlan& plan, const SerialChain& chain, const Pose& target,
+                                    const VectorX& seed);
+
+/// Every part of a branch name that the plan uses, the neutral ones included.
+std::vector<std::string> branchNamesOf(const ClosedFormPlan& plan);
+
+/// Whether a solution's branch has every part that is wished; "elbow straight" is on both elbow branches.
+bool matchesBranch(const std::string& branch, const std::string& wish);
+
+/// "a, b" as {"a", "b"}.
+std::vector<std::string> branchPartsOf(const std::string& branch);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SRC_IK_PLAN_CANDIDATES_H

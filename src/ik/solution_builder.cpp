@@ -1,0 +1,102 @@
+#include "solution_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "continuum.h"
+#include "screwline/ik/numerical/numerical_solver.h"
+#include "screwline/kinematics/singularity.h"
+#include "turns.h"
+
+namespace screwline {
+namespace {
+
+constexpr double kGoodEnough = 1e-13;  // [m, rad] errors that Newton steps would not lessen.
+constexpr double kLeastBand = 1e-9;    // Limits are decided no finer than this, and no coarser than kMostBand.
+constexpr double kMostBand = 1e-6;
+
+bool isSolution(const TaskError& error) {
+  return error.position <= kSolutionTolerance && error.orientation <= kSolutionTolerance;
+}
+
+}  // namespace
+
+SolutionBuilder::SolutionBuilder(const SerialChain& chain, const Task& task, const IkRequest& request)
+    : chain_(chain),
+      task_(task),
+      request_(request),
+      seed_(request.seed.size() > 0 ? request.seed : chain.clamped(VectorX::Zero(chain.size()))) {}
+
+std::optional<IkSolution> SolutionBuilder::build(const Candidate& candidate) const {
+  IkSolution solution;
+  solution.branch = candidate.branch;
+  solution.position = candidate.q;
+  if (!candidate.free.empty()) {
+    Continuum continuum = describeContinuum(chain_, candidate, seed_, request_.ignore_limits);
+    solution.position = continuum.nearest;
+    solution.self_motion = continuum.directions;
+    solution.free_joints = continuum.free_joints;
+    solution.self_motion_lower = continuum.lower;
+    solution.self_motion_upper = continuum.upper;
+  }
+  TaskError error = taskError(task_, request_.target, forwardKinematics(chain_, solution.position));
+  if (error.norm() > kGoodEnough) error = polish(chain_, task_, request_.target, solution.position);
+  if (!isSolution(error)) return std::nullopt;
+  measure(solution, candidate.merged);
+  const double band = std::clamp(solution.joint_error, kLeastBand, kMostBand);
+  const Turned turned =
+      chooseTurns(chain_, solution.position, seed_, hasSeed() || !candidate.free.empty(), request_.ignore_limits, band);
+  solution.position = turned.q;
+  measure(solution, candidate.merged);
+  solution.within_limits = turned.within_limits;
+  if (solution.position_error > kSolutionTolerance || solution.orientation_error > kSolutionTolerance)
+    return std::nullopt;
+  return solution;
+}
+
+IkSolution SolutionBuilder::describe(const VectorX& q) const {
+  IkSolution solution;
+  solution.position = q;
+  measure(solution, false);
+  solution.within_limits = chooseTurns(chain_, q, q, true, false, kLeastBand).within_limits;
+  return solution;
+}
+
+bool SolutionBuilder::seedSolves() const {
+  if (!hasSeed() || !isSolution(taskError(task_, request_.target, forwardKinematics(chain_, seed_)))) return false;
+  return request_.ignore_limits || (chain_.clamped(seed_) - seed_).cwiseAbs().maxCoeff() <= kLeastBand;
+}
+
+void SolutionBuilder::measure(IkSolution& solution, bool merged) const {
+  Matrix6X J(6, chain_.size());
+  const Pose actual = geometricJacobian(chain_, solution.position, J);
+  const TaskError error = taskError(task_, request_.target, actual);
+  const MatrixX task_jacobian = task_.select(J);
+  const TaskRank rank = taskRank(task_jacobian);
+  const double largest = rank.singular_values.size() > 0 ? rank.singular_values[0] : 0.0;
+  const double smallest = rank.singular_values.size() > 0 ? rank.singular_values.minCoeff() : 0.0;
+  solution.position_error = error.position;
+  solution.orientation_error = error.orientation;
+  solution.joint_error = error.norm() / std::max({smallest, kRankTolerance * largest, 1e-12});
+  solution.manipulability = manipulability(task_jacobian);
+  solution.singular = merged || solution.self_motion.rows() > 0 || rank.rank < std::min(task_.size(), chain_.size());
+  solution.distance = (solution.position - seed_).norm();
+  if (solution.self_motion.rows() == 0) solution.self_motion.resize(0, chain_.size());
+}
+
+std::vector<Candidate> joinEqual(const SerialChain& chain, std::vector<Candidate> candidates) {
+  std::vector<Candidate> distinct;
+  for (Candidate& candidate : candidates) {
+    const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const Candidate& other) {
+      return other.free == candidate.free && largestDifference(chain, other.q, candidate.q) <= kSameSolution;
+    });
+    if (same == distinct.end()) {
+      distinct.push_back(std::move(candidate));
+    } else {
+      same->merged = true;
+    }
+  }
+  return distinct;
+}
+
+}  // namespace screwline

@@ -1,0 +1,43 @@
+#ifndef SCREWLINE_SRC_IK_SOLUTION_BUILDER_H
+#define SCREWLINE_SRC_IK_SOLUTION_BUILDER_H
+
+#include <optional>
+#include <vector>
+
+#include "candidate.h"
+
+namespace screwline {
+
+/// Turns what a solver proposes into verified answers to one request.
+class SolutionBuilder {
+ public:
+  SolutionBuilder(const SerialChain& chain, const Task& task, const IkRequest& request);
+
+  const VectorX& seed() const { return seed_; }
+  bool hasSeed() const { return request_.seed.size() > 0; }
+
+  /// Refines, verifies by forward kinematics, chooses turns, describes continua. Empty where the candidate is no
+  /// solution to 1e-9.
+  std::optional<IkSolution> build(const Candidate& candidate) const;
+
+  /// The same numbers for a configuration that need not be a solution.
+  IkSolution describe(const VectorX& q) const;
+
+  /// Whether the seed itself meets the pose (and the limits, where they are honoured).
+  bool seedSolves() const;
+
+ private:
+  void measure(IkSolution& solution, bool merged) const;
+
+  const SerialChain& chain_;
+  const Task& task_;
+  const IkRequest& request_;
+  VectorX seed_;
+};
+
+/// Candidates with those that are the same within kSameSolution joined into one, marked merged.
+std::vector<Candidate> joinEqual(const SerialChain& chain, std::vector<Candidate> candidates);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SRC_IK_SOLUTION_BUILDER_H
