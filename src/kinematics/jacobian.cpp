@@ -43,7 +43,7 @@ Matrix6X expressedIn(const Matrix6X& J, const Matrix3& R_FB) {
 }
 
 MatrixX taskJacobian(const Task& task, const Matrix6X& J) {
-  return task.select(Eigen::Ref<const Matrix6X>(J));
+  return task.select(J);
 }
 
 double determinantOrNan(const MatrixX& J) {
