@@ -8,10 +8,10 @@
 namespace screwline {
 namespace {
 
-constexpr double kAccepted = 1e-9;      ///< [m], [rad] that a solution's errors stay below.
-constexpr double kSame = 1e-6;          ///< Every joint closer: one solution.
-constexpr double kPerhapsSame = 1e-3;   ///< Closer: one solution where it is known no better than that.
-constexpr double kRounding = 1e-15;     ///< Of the chain's size: what forward kinematics leaves of the residual.
+constexpr double kAccepted = 1e-9;     ///< [m], [rad] that a solution's errors stay below.
+constexpr double kSame = 1e-6;         ///< Every joint closer: one solution.
+constexpr double kPerhapsSame = 1e-3;  ///< Closer: one solution where it is known no better than that.
+constexpr double kRounding = 1e-15;    ///< Of the chain's size: what forward kinematics leaves of the residual.
 constexpr double kBandFactor = 10.0;
 /// Rotation beside translation, in characteristic lengths: what solves most poses per iteration.
 constexpr double kSearchWeight = 0.5;

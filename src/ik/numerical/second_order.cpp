@@ -7,12 +7,12 @@
 namespace screwline {
 namespace {
 
-constexpr double kDifference = 1e-5;       ///< Scaled step of the central differences: errors of about 1e-10.
-constexpr double kFlat = 1e-9;             ///< Of the largest curvature: what differences cannot tell from none.
-constexpr double kLongestStep = 0.5;       ///< Scaled.
-constexpr double kShortestStep = 1e-9;     ///< Scaled; the cost is flat to rounding within it.
-constexpr double kEscape = 0.2;            ///< Scaled length of the first step off a saddle.
-constexpr double kEscapeShortest = 1e-4;   ///< Scaled.
+constexpr double kDifference = 1e-5;        ///< Scaled step of the central differences: errors of about 1e-10.
+constexpr double kFlat = 1e-9;              ///< Of the largest curvature: what differences cannot tell from none.
+constexpr double kLongestStep = 0.5;        ///< Scaled.
+constexpr double kShortestStep = 1e-9;      ///< Scaled; the cost is flat to rounding within it.
+constexpr double kEscape = 0.2;             ///< Scaled length of the first step off a saddle.
+constexpr double kEscapeShortest = 1e-4;    ///< Scaled.
 constexpr double kShortestFraction = 1e-3;  ///< Of a Newton step that is shortened until the cost falls.
 
 }  // namespace
@@ -49,7 +49,8 @@ bool Descent::tryAlong(const VectorX& direction, double length) {
 bool Descent::newtonStep(const MatrixX& vectors, const VectorX& values) {
   const int count = active_.freeCount();
   VectorX gradient(count);
-  for (int k = 0; k < count; ++k) gradient[k] = active_.gradient()[active_.freeJoint(k)] * box_.unit(active_.freeJoint(k));
+  for (int k = 0; k < count; ++k)
+    gradient[k] = active_.gradient()[active_.freeJoint(k)] * box_.unit(active_.freeJoint(k));
   const double steepest = values.cwiseAbs().maxCoeff();
   // The step of |H|: downhill also where the curvature is negative; along flat directions it stays.
   VectorX along = vectors.transpose() * gradient;

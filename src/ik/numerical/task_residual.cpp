@@ -13,8 +13,8 @@ Matrix3 inverseRightJacobian(const Vector3& r) {
   const double angle = r.norm();
   const Matrix3 S = skew(r);
   // (1 - (angle / 2) cot(angle / 2)) / angle^2 by series where the quotient would lose its digits.
-  const double factor = angle < 1e-2 ? 1.0 / 12.0 + angle * angle / 720.0
-                                     : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
+  const double factor =
+      angle < 1e-2 ? 1.0 / 12.0 + angle * angle / 720.0 : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
   return Matrix3::Identity() + 0.5 * S + factor * S * S;
 }
 
