@@ -1,7 +1,7 @@
 # Everything a user needs from the install space. Who adds a library, a node, a tool or a script adds its name here.
 set(libraries screwline_core screwline_ros)
 set(executables frame_broadcaster kinematics_server trajectory_generator)
-set(python_scripts)
+set(python_scripts scripts/scenario)
 set(folders launch urdf config)
 
 # What is not written yet is left out.
@@ -24,3 +24,6 @@ if(python_scripts)
 endif()
 install(DIRECTORY include/screwline/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 install(DIRECTORY ${folders} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+# What scripts/scenario is made of, and the table that a scenario compares with.
+install(DIRECTORY scripts/screwline_scenario DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION} PATTERN __pycache__ EXCLUDE)
+install(FILES test/data/rrp_tool_velocity.csv DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}/test/data)

@@ -1,0 +1,1 @@
+"""What `rosrun screwline scenario` is made of."""

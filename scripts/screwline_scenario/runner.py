@@ -1,0 +1,119 @@
+"""Takes the steps of a scenario."""
+import os
+import time
+
+import rospy
+import rosservice
+
+from .bag_check import check_bag
+from .expectations import compare
+from .messages import FieldError, fill, lookup
+from .expressions import ExpressionError
+from .recorder import Recorder
+from .report import formatted, labelled
+from .session import NotRunnable, Session, ensure_master
+
+SECONDS_TO_ANSWER = 20
+CALL_KEYS = {'title', 'service', 'q', 'request', 'expect', 'tolerance', 'print'}
+ROWS_OF = {'lost_directions': 'task', 'self_motions': 'joint_names', 'task_jacobian': 'joint_names',
+           'jacobian': 'joint_names'}  # whose length is the number of columns
+COLUMNS_OF = {'modified_dh': 4, 'screw_axes': 6, 'supported_wrenches': 6}
+
+
+def run_scenario(scenario, report, bag_dir, rviz):
+    """Fills the report. `bag_dir`: where bags go, None for no recording. @raise NotRunnable"""
+    report.say('%s: %s' % (scenario.name, scenario.description))
+    master = ensure_master()
+    try:
+        rospy.init_node('scenario', disable_signals=True)
+        for part in scenario.parts:
+            bag = os.path.join(os.path.abspath(bag_dir), scenario.bag_name(part)) if bag_dir else None
+            run_part(part, report, bag, rviz)
+    finally:
+        rospy.signal_shutdown('done')
+        if master:
+            master.stop()
+
+
+def run_part(part, report, bag, rviz):
+    report.say()
+    report.say('robot %s' % part.robot)
+    recorder, runner = None, None
+    session = Session(part, rviz)
+    try:
+        session.wait_for_services()
+        if bag:
+            recorder = Recorder(bag, part.motion)
+            recorder.wait_for_connections()
+        runner = PartRunner(part, report)
+        for kind, content in part.steps:
+            session.process.require_running()
+            runner.take(kind, content)
+    finally:
+        if recorder:
+            recorder.stop()
+        session.stop()
+    if bag:
+        check_bag(bag, part, runner.windows(), recorder.topics, report)
+
+
+class PartRunner:
+    def __init__(self, part, report):
+        self.part, self.report = part, report
+        self.mover = None
+        if part.motion:
+            from .motion import Mover
+            self.mover = Mover(part, report)
+
+    def windows(self):
+        return self.mover.windows if self.mover else []
+
+    def take(self, kind, content):
+        """A step that breaks off counts as failed; the next ones are still taken."""
+        count = len(self.report.steps)
+        try:
+            getattr(self, kind)(content)
+        except (FieldError, ExpressionError, rospy.ServiceException, rospy.ROSException) as error:
+            if len(self.report.steps) == count:
+                self.report.begin(kind)
+            self.report.check(kind, str(error) or type(error).__name__)
+
+    def say(self, text):
+        self.report.say('    ' + text)
+
+    def wait(self, seconds):
+        time.sleep(float(seconds))
+
+    def move(self, step):
+        if self.mover is None:
+            raise FieldError('this part has motion: false')
+        self.mover.move(step)
+
+    def call(self, step):
+        unknown = set(step) - CALL_KEYS
+        if unknown:
+            raise FieldError('call: unknown keys %s' % ', '.join(sorted(unknown)))
+        service = '/kinematics_server/' + step['service'] if '/' not in step['service'] else step['service']
+        self.report.begin(step.get('title', step['service']))
+        rospy.wait_for_service(service, SECONDS_TO_ANSWER)
+        service_class = rosservice.get_service_class_by_name(service)
+        request = fill(service_class._request_class(), step.get('request', {}), self.part.values)
+        if 'q' in step:
+            request.joint_state.position = fill(type(request.joint_state)(), {'position': step['q']}, self.part.values).position
+        self.judge(step, rospy.ServiceProxy(service, service_class)(request))
+
+    def judge(self, step, answer):
+        expected = dict({'success': True}, **step.get('expect', {}))
+        for path in step.get('print', []):
+            self.report.detail(labelled(path, formatted(lookup(answer, path), columns(answer, path))))
+        if answer.message:
+            self.report.detail('says: ' + answer.message)
+        for path, wanted in expected.items():
+            problem, deviation = compare(lookup(answer, path), wanted, step.get('tolerance', 1e-9), self.part.values)
+            self.report.check(path, problem, deviation)
+
+
+def columns(answer, path):
+    if path in ROWS_OF:
+        return max(1, len(getattr(answer, ROWS_OF[path])))
+    return COLUMNS_OF.get(path)
