@@ -28,6 +28,21 @@ void fillWeights(double u, double inverse_length, int degree, Weights& w) {
   }
 }
 
+/// The four sums of a block of neighbouring joints, kept in registers over all powers.
+template <int kJoints>
+void weigh(const double* c, int stride, int degree, const Weights& w, double* p, double* v, double* a, double* j) {
+  using Block = Eigen::Array<double, kJoints, 1>;
+  Block sums[4] = {Block::Zero(), Block::Zero(), Block::Zero(), Block::Zero()};
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k, c += stride) {
+    const Block powers = Eigen::Map<const Block>(c);
+    for (std::size_t order = 0; order < 4; ++order) sums[order] += w[order][k] * powers;
+  }
+  Eigen::Map<Block>{p} = sums[0];
+  Eigen::Map<Block>{v} = sums[1];
+  Eigen::Map<Block>{a} = sums[2];
+  Eigen::Map<Block>{j} = sums[3];
+}
+
 /// Integral of |cos| from 0 to angle.
 double cosineTravel(double angle) {
   const double half_turns = std::floor(angle / kPi + 0.5);
@@ -140,31 +155,23 @@ void JointTrajectory::sampleScaled(double t, double* p, double* v, double* a, do
 }
 
 void JointTrajectory::samplePieces(double t, double* p, double* v, double* a, double* j) const {
-  std::fill_n(p, joints_, 0.0);
-  std::fill_n(v, joints_, 0.0);
-  std::fill_n(a, joints_, 0.0);
-  std::fill_n(j, joints_, 0.0);
   if (pieces_.segments() == 0) return;
   std::size_t segment = 0;
   if (pieces_.segments() > 1) {
     const auto after = std::upper_bound(pieces_.breaks.begin() + 1, pieces_.breaks.end() - 1, t);
     segment = static_cast<std::size_t>(after - pieces_.breaks.begin()) - 1;
   }
-  const double u = t >= pieces_.breaks[segment + 1] && inverse_lengths_[segment] > 0.0
-                       ? 1.0
-                       : (t - pieces_.breaks[segment]) * inverse_lengths_[segment];
+  const double inverse = inverse_lengths_[segment];
+  const bool at_end = t >= pieces_.breaks[segment + 1] && inverse > 0.0;
+  const double u = at_end ? 1.0 : (t - pieces_.breaks[segment]) * inverse;
   Weights w;
-  fillWeights(u, inverse_lengths_[segment], pieces_.degree, w);
+  fillWeights(u, inverse, pieces_.degree, w);
   const double* c = pieces_.coefficients.data() +
                     segment * static_cast<std::size_t>(pieces_.degree + 1) * static_cast<std::size_t>(joints_);
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(pieces_.degree); ++k, c += joints_) {
-    for (int i = 0; i < joints_; ++i) {
-      p[i] += w[0][k] * c[i];
-      v[i] += w[1][k] * c[i];
-      a[i] += w[2][k] * c[i];
-      j[i] += w[3][k] * c[i];
-    }
-  }
+  int i = 0;
+  for (; i + 4 <= joints_; i += 4) weigh<4>(c + i, joints_, pieces_.degree, w, p + i, v + i, a + i, j + i);
+  for (; i + 2 <= joints_; i += 2) weigh<2>(c + i, joints_, pieces_.degree, w, p + i, v + i, a + i, j + i);
+  if (i < joints_) weigh<1>(c + i, joints_, pieces_.degree, w, p + i, v + i, a + i, j + i);
 }
 
 void JointTrajectory::sampleSinusoid(double t, double* p, double* v, double* a, double* j) const {
