@@ -12,7 +12,7 @@ import yaml
 from .expressions import ExpressionError, number
 
 PART_KEYS = {'robot', 'steps', 'rate', 'motion', 'values', 'parameters'}
-STEP_KINDS = {'say', 'call', 'move', 'wait'}
+STEP_KINDS = {'say', 'call', 'frame', 'move', 'wait'}
 
 
 class DescriptionError(Exception):

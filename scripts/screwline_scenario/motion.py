@@ -14,10 +14,11 @@ from .expectations import compare, compare_numbers
 from .report import formatted, labelled
 from .streams import MotionStreams, between, interpolated
 
-SECONDS_TO_ANSWER = 10
 SECONDS_TO_START = 5  # that a motion may take to begin after its execution was asked for
 MOVE_KEYS = {'title', 'profile', 'waypoints', 'duration', 'parameters', 'scaling', 'expect', 'tolerance', 'print', 'at', 'table'}
+ANSWER_TOLERANCE = 1e-9
 STREAM_TOLERANCE = 1e-6
+SHAPE_TOLERANCE = 1e-4  # where the plan is only known at its samples
 REST = 1e-4  # [rad or m] nearer to its first waypoint a motion begins without a transfer
 
 
@@ -28,6 +29,9 @@ class Mover:
         self.execute = rospy.ServiceProxy('/trajectory_generator/execute', ExecuteTrajectory)
         self.streams = MotionStreams()
         self.windows = []  # (first stamp, duration) of each motion streamed
+
+    def stop(self):
+        self.streams.stop()
 
     def move(self, step):
         unknown = set(step) - MOVE_KEYS
@@ -65,7 +69,7 @@ class Mover:
         if not answer.success:
             self.report.detail('error %d: %s' % (answer.error_code, answer.message))
         for path, wanted in expected.items():
-            problem, deviation = compare(lookup(answer, path), wanted, step.get('tolerance', 1e-9), self.part.values)
+            problem, deviation = compare(lookup(answer, path), wanted, number(step.get('tolerance', ANSWER_TOLERANCE)), self.part.values)
             self.report.check(path, problem, deviation)
         if not answer.success:
             return
@@ -136,9 +140,9 @@ class Mover:
         inner = [i for i, t in enumerate(seconds) if times[2] < t < times[-3]] if len(times) > 8 else []
         streamed = [x for i in inner for x in rows[i][:planned.shape[1]]]
         wanted = [x for i in inner for x in interpolated(times, planned, seconds[i])]
-        self.report.check('stream as planned', *compare_numbers(streamed, wanted, 1e-4))
+        self.report.check('stream as planned', *compare_numbers(streamed, wanted, SHAPE_TOLERANCE))
         last = list(self.streams.position())
-        self.report.check('ends at the goal', *compare_numbers(last, list(planned[-1]), 1e-9))
+        self.report.check('ends at the goal', *compare_numbers(last, list(planned[-1]), ANSWER_TOLERANCE))
 
     def judge_instant(self, instant, duration):
         """{time or tau, topic: [numbers], ...} against the streams there."""
@@ -147,11 +151,12 @@ class Mover:
             wanted = numbers(instant[topic], self.part.values)
             found = list(interpolated(*self.window(topic), time)[:len(wanted)])
             self.report.detail(labelled('%s at %.3f s' % (topic, time), formatted(found)))
-            self.report.check(topic, *compare_numbers(found, wanted, instant.get('tolerance', STREAM_TOLERANCE)))
+            self.report.check(topic, *compare_numbers(found, wanted, number(instant.get('tolerance', STREAM_TOLERANCE))))
 
     def judge_table(self, table):
         """Streams against the columns of a CSV file at its instants."""
         path = os.path.join(package_path(), table['file'])
+        tolerance = number(table.get('tolerance', STREAM_TOLERANCE))
         with open(path) as stream:
             rows = list(csv.DictReader(stream))
         for topic, columns in table['columns'].items():
@@ -161,5 +166,5 @@ class Mover:
                 found = interpolated(seconds, values, float(row[table['time']]))[:len(columns)]
                 off = max(abs(x - float(row[column])) for x, column in zip(found, columns))
                 worst, when = max((worst, when), (off, float(row[table['time']])))
-            problem = '' if worst <= table.get('tolerance', STREAM_TOLERANCE) else 'off by %.2g at %.2f s' % (worst, when)
+            problem = '' if worst <= tolerance else 'off by %.2g at %.2f s' % (worst, when)
             self.report.check('%s at %d instants of %s' % (topic, len(rows), os.path.basename(path)), problem, worst)

@@ -11,6 +11,7 @@ from .session import NotRunnable, Process, log_folder, wait_until
 NODE = '/scenario_recorder'
 STATIC_TOPICS = ['/tf', '/tf_static', '/frame_broadcaster/markers']
 MOTION_TOPICS = ['/joint_states', '/joint_trajectory', '/metrics', '/time_scaling', '/tool_pose', '/tool_twist']
+LAST_HANDSHAKES = 0.3  # [s] for publishers to take in what the recorder has sent them
 LAST_MESSAGES = 0.5  # [s] for what is on its way when the recording ends
 
 
@@ -29,6 +30,7 @@ class Recorder:
 
     def wait_for_connections(self):
         wait_until(self.connected, [self.process], 'a publisher of each of %s' % ', '.join(self.topics))
+        time.sleep(LAST_HANDSHAKES)
 
     def connected(self):
         """Every topic has a publisher, and the recorder a connection to each publisher."""

@@ -54,7 +54,8 @@ def formatted(value, columns=None):
     if isinstance(value, float):
         return '%.6g' % value
     if isinstance(value, (list, tuple, np.ndarray)) and len(value) and isinstance(value[0], (int, float)):
-        rows = np.array(value, dtype=float).reshape(-1, columns or len(value))
+        columns = columns if columns and len(value) % columns == 0 else len(value)
+        rows = np.array(value, dtype=float).reshape(-1, columns)
         return '\n'.join(' '.join('%10s' % ('%.5g' % (x + 0.0 if abs(x) > 5e-13 else 0.0)) for x in row) for row in rows)
     if isinstance(value, (list, tuple)):
         return '\n'.join(formatted(item, columns) for item in value) if value else '(none)'

@@ -4,16 +4,20 @@ import time
 
 import rospy
 import rosservice
+import tf2_ros
+from geometry_msgs.msg import Pose, TransformStamped, Vector3
 
 from .bag_check import check_bag
 from .expectations import compare
-from .messages import FieldError, fill, lookup
-from .expressions import ExpressionError
+from .expressions import ExpressionError, number
+from .messages import FieldError, fill, lookup, pose_from
 from .recorder import Recorder
 from .report import formatted, labelled
 from .session import NotRunnable, Session, ensure_master
 
+ANSWER_TOLERANCE = 1e-9
 SECONDS_TO_ANSWER = 20
+SECONDS_TO_CONNECT = 0.5  # of a new publisher with who listens
 CALL_KEYS = {'title', 'service', 'q', 'request', 'expect', 'tolerance', 'print'}
 ROWS_OF = {'lost_directions': 'task', 'self_motions': 'joint_names', 'task_jacobian': 'joint_names',
            'jacobian': 'joint_names'}  # whose length is the number of columns
@@ -50,23 +54,35 @@ def run_part(part, report, bag, rviz):
             session.process.require_running()
             runner.take(kind, content)
     finally:
-        if recorder:
-            recorder.stop()
-        session.stop()
+        close([runner, recorder, session])
     if bag:
         check_bag(bag, part, runner.windows(), recorder.topics, report)
+
+
+def close(things):
+    """Stops each, whatever becomes of the others."""
+    if things:
+        try:
+            if things[0]:
+                things[0].stop()
+        finally:
+            close(things[1:])
 
 
 class PartRunner:
     def __init__(self, part, report):
         self.part, self.report = part, report
-        self.mover = None
+        self.mover, self.broadcaster = None, None
         if part.motion:
             from .motion import Mover
             self.mover = Mover(part, report)
 
     def windows(self):
         return self.mover.windows if self.mover else []
+
+    def stop(self):
+        if self.mover:
+            self.mover.stop()
 
     def take(self, kind, content):
         """A step that breaks off counts as failed; the next ones are still taken."""
@@ -83,6 +99,17 @@ class PartRunner:
 
     def wait(self, seconds):
         time.sleep(float(seconds))
+
+    def frame(self, step):
+        """A constant frame on tf: {name, parent, xyz, rpy}."""
+        transform = TransformStamped(child_frame_id=step['name'])
+        transform.header.frame_id, transform.header.stamp = step['parent'], rospy.Time.now()
+        pose = pose_from(Pose(), step, self.part.values)
+        transform.transform.translation = Vector3(pose.position.x, pose.position.y, pose.position.z)
+        transform.transform.rotation = pose.orientation
+        self.broadcaster = tf2_ros.StaticTransformBroadcaster()
+        self.broadcaster.sendTransform(transform)
+        time.sleep(SECONDS_TO_CONNECT)
 
     def move(self, step):
         if self.mover is None:
@@ -109,7 +136,7 @@ class PartRunner:
         if answer.message:
             self.report.detail('says: ' + answer.message)
         for path, wanted in expected.items():
-            problem, deviation = compare(lookup(answer, path), wanted, step.get('tolerance', 1e-9), self.part.values)
+            problem, deviation = compare(lookup(answer, path), wanted, number(step.get('tolerance', ANSWER_TOLERANCE)), self.part.values)
             self.report.check(path, problem, deviation)
 
 

@@ -63,7 +63,11 @@ class MotionStreams:
             'tool_pose': Stream('tool_pose', PoseStamped, lambda m: flattened(m.pose)),
         }
         self.trajectory = None
-        rospy.Subscriber('joint_trajectory', JointTrajectory, self.take_trajectory, queue_size=10)
+        self.subscriber = rospy.Subscriber('joint_trajectory', JointTrajectory, self.take_trajectory, queue_size=10)
+
+    def stop(self):
+        for listener in [self, *self.topics.values()]:
+            listener.subscriber.unregister()
 
     def take_trajectory(self, message):
         self.trajectory = message
