@@ -39,6 +39,13 @@ inline PlanRequest request(const std::string& profile, const std::vector<VectorX
   return result;
 }
 
+/// A motion under the limits 1, 4, 40 of every joint.
+inline JointTrajectory planned(const std::string& profile, const std::vector<VectorX>& way, double duration = 0.0) {
+  PlanRequest r = request(profile, way, limitsOf(static_cast<int>(way.front().size()), 1.0, 4.0, 40.0));
+  r.duration = duration;
+  return plan(r).trajectory;
+}
+
 /// What plan() throws; kSuccess where it does not.
 inline ErrorCode errorOf(const PlanRequest& request) {
   try {
