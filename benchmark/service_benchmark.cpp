@@ -1,0 +1,82 @@
+// Round trips over persistent connections: the servers' services against an empty one of this process, in turn in the
+// same run. Needs a roscore and a kinematics_server named /kinematics_server; benchmark/run starts both.
+#include <ros/ros.h>
+#include <screwline/ComputeFK.h>
+#include <screwline/ComputeIK.h>
+#include <screwline/ComputeJacobian.h>
+#include <screwline/Describe.h>
+#include <std_srvs/Empty.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <vector>
+
+namespace {
+
+constexpr int kRounds = 40;
+constexpr int kCallsPerRound = 100;
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+template <typename Service>
+double secondsPerCall(ros::ServiceClient& client, Service& service) {
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < kCallsPerRound; ++i) {
+    if (!client.call(service)) ROS_FATAL("%s does not answer", client.getService().c_str());
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kCallsPerRound;
+}
+
+/// Pairs of rounds, empty and asked service in turn, so that a drifting machine does not decide.
+template <typename Service>
+void compare(const char* name, ros::ServiceClient& empty, Service service) {
+  ros::NodeHandle node;
+  ros::ServiceClient asked = node.serviceClient<Service>(std::string("/kinematics_server/") + name, true);
+  asked.waitForExistence();
+  std_srvs::Empty nothing;
+  std::vector<double> ratios;
+  std::vector<double> times;
+  for (int round = 0; round < kRounds; ++round) {
+    const double reference = secondsPerCall(empty, nothing);
+    const double time = secondsPerCall(asked, service);
+    times.push_back(time * 1e6);
+    ratios.push_back(time / reference);
+  }
+  std::printf("%-20s median %7.1f us, ratio to the empty service %.3f\n", name, median(times), median(ratios));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "service_benchmark");
+  ros::NodeHandle node;
+  // The empty service is served by another process, as the kinematics are: started with --serve.
+  if (argc > 1 && std::string(argv[1]) == "--serve") {
+    const ros::ServiceServer server = node.advertiseService<std_srvs::Empty::Request, std_srvs::Empty::Response>(
+        "/empty_service", [](std_srvs::Empty::Request&, std_srvs::Empty::Response&) { return true; });
+    ros::AsyncSpinner spinner(0);
+    spinner.start();
+    ros::waitForShutdown();
+    return 0;
+  }
+  ros::service::waitForService("/empty_service");
+  ros::ServiceClient empty = node.serviceClient<std_srvs::Empty>("/empty_service", true);
+  screwline::Describe describe;
+  ros::service::waitForService("/kinematics_server/describe");
+  ros::service::call("/kinematics_server/describe", describe);
+  screwline::ComputeFK fk;
+  fk.request.joint_state.position.assign(describe.response.joint_names.size(), 0.4);
+  compare("compute_fk", empty, fk);
+  screwline::ComputeJacobian jacobian;
+  jacobian.request.joint_state = fk.request.joint_state;
+  compare("compute_jacobian", empty, jacobian);
+  ros::service::call("/kinematics_server/compute_fk", fk);
+  screwline::ComputeIK ik;
+  ik.request.pose = fk.response.poses.front();
+  compare("compute_ik", empty, ik);
+  return 0;
+}

@@ -1,0 +1,71 @@
+// The hot paths allocate nothing: malloc itself is counted, so that Eigen's and the library's own allocations are seen
+// alike.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "ik_arms.h"
+#include "screwline/ik/closed_form/plan.h"
+#include "screwline/kinematics/jacobian.h"
+
+extern "C" void* __libc_malloc(std::size_t size);
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+
+namespace screwline {
+namespace {
+
+template <typename Work>
+long allocationsOf(Work&& work) {
+  const long before = allocations;
+  work();
+  return allocations - before;
+}
+
+class Allocation : public testing::TestWithParam<int> {
+ protected:
+  test::ArmMaker maker_{5};
+  test::ArmMaker::Arm arm_ = maker_.make(GetParam());
+  VectorX q_ = VectorX::LinSpaced(arm_.chain.size(), 0.2, 0.9);
+};
+
+TEST_P(Allocation, ForwardKinematicsAllocatesNothing) {
+  EXPECT_EQ(allocationsOf([&] { forwardKinematics(arm_.chain, q_); }), 0);
+  EXPECT_EQ(allocationsOf([&] { forwardByExponentials(arm_.chain, q_); }), 0);
+}
+
+TEST_P(Allocation, GeometricJacobianAllocatesNothing) {
+  Matrix6X J(6, arm_.chain.size());
+  EXPECT_EQ(allocationsOf([&] { geometricJacobian(arm_.chain, q_, J); }), 0);
+}
+
+TEST_P(Allocation, ClosedFormAllocatesNothing) {
+  const std::optional<ClosedFormPlan> plan = ClosedFormPlan::compile(arm_.chain, arm_.task);
+  ASSERT_TRUE(plan.has_value());
+  const Pose target = forwardKinematics(arm_.chain, q_);
+  PlanSolutions solutions;
+  EXPECT_EQ(allocationsOf([&] { plan->solve(target, q_.data(), solutions); }), 0);
+  EXPECT_GT(solutions.count, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Structures, Allocation, testing::Range(0, test::ArmMaker::kStructures));
+
+TEST(AllocationChecker, SeesAnAllocation) {
+  EXPECT_GT(allocationsOf([] {
+              VectorX v(100);
+              v.setOnes();
+              ASSERT_GT(v.sum(), 0.0);
+            }),
+            0);
+}
+
+}  // namespace
+}  // namespace screwline
