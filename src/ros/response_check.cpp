@@ -1,0 +1,17 @@
+#include "screwline/ros/response_check.h"
+
+namespace screwline {
+namespace ros_bridge {
+
+Allowed allowed(const ComputeIK::Response& response, const double* number) {
+  const auto open = [number](const IkSolutionMsg& solution) {
+    return number == &solution.joint_error || lies(number, solution.self_motion_lower) ||
+           lies(number, solution.self_motion_upper);
+  };
+  bool infinite = open(response.closest);
+  for (const IkSolutionMsg& solution : response.solutions) infinite = infinite || open(solution);
+  return infinite ? Allowed::kInfinity : Allowed::kFinite;
+}
+
+}  // namespace ros_bridge
+}  // namespace screwline
