@@ -1,27 +1,15 @@
 # Everything a user needs from the install space. Who adds a library, a node, a tool or a script adds its name here.
 set(libraries screwline_core screwline_ros)
-set(executables frame_broadcaster kinematics_server trajectory_generator)
+set(executables frame_broadcaster kinematics_server)
 set(python_scripts scripts/scenario)
 set(folders launch urdf config)
-
-# What is not written yet is left out.
-foreach(target ${libraries} ${executables})
-  if(NOT TARGET ${target})
-    list(REMOVE_ITEM libraries ${target})
-    list(REMOVE_ITEM executables ${target})
-  endif()
-endforeach()
 
 install(TARGETS ${libraries}
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
-if(executables)
-  install(TARGETS ${executables} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-endif()
-if(python_scripts)
-  catkin_install_python(PROGRAMS ${python_scripts} DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-endif()
+install(TARGETS ${executables} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+catkin_install_python(PROGRAMS ${python_scripts} DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/screwline/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 install(DIRECTORY ${folders} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 # What scripts/scenario is made of, and the table that a scenario compares with.
