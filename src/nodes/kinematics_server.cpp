@@ -13,8 +13,7 @@ namespace {
 
 using namespace screwline::ros_bridge;
 
-void serveRobot() {
-  ros::NodeHandle private_node("~");
+void serveRobot(ros::NodeHandle& private_node) {
   XmlRpc::XmlRpcValue values;
   private_node.getParam("", values);
   const KinematicsParams params = readKinematicsParams(values);
@@ -38,8 +37,9 @@ std::string inOneLine(std::string text) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, kKinematicsServerNode);
+  ros::NodeHandle private_node("~");  // The console is silent once the last handle is gone.
   try {
-    serveRobot();
+    serveRobot(private_node);
     return 0;
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM("the robot can not be served: " << inOneLine(error.what()));

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "screwline/ros/checks.h"
 #include "screwline/ros/conversions.h"
@@ -82,8 +81,8 @@ IkRequest KinematicsServer::ikRequest(const ComputeIK::Request& request, const T
     question.seed = jointPositions(*robot_.chain, request.seed, "seed");
   }
   question.branch = request.branch;
-  constexpr unsigned kMost = std::numeric_limits<int>::max();
-  question.max_solutions = static_cast<int>(std::min(request.max_solutions, kMost));
+  requireFinite(request.max_solutions, "max_solutions");
+  question.max_solutions = static_cast<int>(request.max_solutions);
   question.all_turns = request.all_turns;
   question.ignore_limits = request.ignore_limits;
   requireCount(request.redundancy.size(), kMaxJoints, "redundancy");
