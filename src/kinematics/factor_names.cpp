@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kComparisons = 4;
 constexpr int kFirstSample = 200;
+constexpr int kFirstWristJoint = 3;  ///< Three joints place, those after them orient.
 constexpr double kProportional = 1e-8;
 
 struct AxesAt {
@@ -137,6 +138,9 @@ void nameSingle(const SerialChain& chain, const Structure& structure, Singularit
   } else if (isBetweenParallelAxes(structure, joint)) {
     factor.name = "elbow";
     factor.meaning = "the arm is straight or folded at " + name + ": the tip cannot move along the arm";
+  } else if (joint >= kFirstWristJoint) {
+    factor.name = "wrist";
+    factor.meaning = "at " + name + " the axes before and after it turn the tip alike: one rotation is lost";
   } else if (joint == 1) {
     factor.name = "shoulder";
     factor.meaning = "what " + name + " carries lies along or over the axis of " + chain.joint(0).name +

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/QR>
@@ -11,12 +12,15 @@
 namespace screwline {
 namespace {
 
-constexpr int kIterations = 30;
+constexpr int kIterations = 14;
+constexpr int kRestorations = 8;
 constexpr int kScanSteps = 16;
-constexpr std::size_t kMaxStarts = 4;
+constexpr std::size_t kMaxStarts = 5;
+constexpr double kDeep = 0.2;  ///< Of the volume at q.
 constexpr double kLongestStep = 0.5;
 constexpr double kDifference = 1e-6;
-constexpr double kConverged = 1e-10;
+constexpr double kDependent = 1e-6;  ///< Conditions that differ by less are one: not all singularities are isolated.
+constexpr double kConverged = 1e-8;
 
 class RankDrop {
  public:
@@ -25,9 +29,15 @@ class RankDrop {
   std::optional<VectorX> nearest() const {
     std::optional<VectorX> best;
     for (const VectorX& start : starts()) {
-      const VectorX q = refined(start);
-      if (!isSingular(q)) continue;
-      if (!best || (q - target_).norm() < (*best - target_).norm()) best = q;
+      // First a singular configuration next to the start. From there the one nearest to the target: where one condition
+      // on the joints makes the rank drop, the smallest singular value alone tells the way; where it takes several, all
+      // do.
+      const VectorX beside = refined(start, start, kRestorations, false);
+      for (const VectorX& q :
+           {beside, refined(beside, target_, kIterations, false), refined(beside, target_, kIterations, true)}) {
+        if (!isSingular(q)) continue;
+        if (!best || (q - target_).norm() < (*best - target_).norm()) best = q;
+      }
     }
     return best;
   }
@@ -47,27 +57,43 @@ class RankDrop {
     return rankOf(sigma, jacobianNoise(J)) < sigma.size();
   }
 
-  /// q and, of each joint's sweep, the lowest point; the lowest few.
+  struct Dip {
+    bool deep;  ///< Low enough for a zero to be near.
+    double rank;
+    VectorX q;
+  };
+
+  /// q, and the dips of the volume along single joints: deep ones first, by their distance, then others, by their
+  /// depth.
   std::vector<VectorX> starts() const {
     const VectorX origin = box_.clamped(target_);
-    std::vector<std::pair<double, VectorX>> lowest;
+    const double here = std::abs(volume_(origin));
+    std::vector<Dip> dips;
     for (Eigen::Index i = 0; i < origin.size(); ++i) {
       const bool revolute = volume_.chain().joint(static_cast<int>(i)).isRevolute();
       const double reach = revolute ? kPi : 2.0 * slideReach(volume_.chain());
-      std::pair<double, VectorX> low(std::numeric_limits<double>::infinity(), origin);
+      std::array<double, 2 * kScanSteps + 1> size;
+      VectorX q = origin;
+      const auto at = [&](int k) {
+        return std::clamp(origin[i] + reach * k / kScanSteps, box_.lower[i], box_.upper[i]);
+      };
       for (int k = -kScanSteps; k <= kScanSteps; ++k) {
-        VectorX q = origin;
-        q[i] += reach * k / kScanSteps;
-        q = box_.clamped(q);
-        const double size = std::abs(volume_(q));
-        if (size < low.first) low = {size, q};
+        q[i] = at(k);
+        size[static_cast<std::size_t>(k + kScanSteps)] = std::abs(volume_(q));
       }
-      lowest.push_back(low);
+      for (int k = 1 - kScanSteps; k < kScanSteps; ++k) {
+        const std::size_t middle = static_cast<std::size_t>(k + kScanSteps);
+        if (size[middle] >= size[middle - 1] || size[middle] > size[middle + 1]) continue;
+        q[i] = at(k);
+        const bool deep = size[middle] < kDeep * here;
+        dips.push_back({deep, deep ? std::abs(q[i] - origin[i]) : size[middle], q});
+      }
     }
-    std::stable_sort(lowest.begin(), lowest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::stable_sort(dips.begin(), dips.end(),
+                     [](const Dip& a, const Dip& b) { return a.deep != b.deep ? a.deep : a.rank < b.rank; });
     std::vector<VectorX> result = {origin};
-    for (const auto& [size, q] : lowest) {
-      if (result.size() < kMaxStarts) result.push_back(q);
+    for (const Dip& dip : dips) {
+      if (result.size() < kMaxStarts) result.push_back(dip.q);
     }
     return result;
   }
@@ -98,13 +124,16 @@ class RankDrop {
   }
 
   /// The point of G (x - q) + r = 0 nearest to the target, joints that leave the box held at its bounds.
-  VectorX projected(const VectorX& q, const MatrixX& G, const VectorX& r) const {
+  VectorX projected(const VectorX& target, const VectorX& q, const MatrixX& G, const VectorX& r) const {
     MatrixX G_free = G;
-    VectorX x = target_;
+    VectorX x = target;
     VectorX held = VectorX::Zero(q.size());
     for (Eigen::Index round = 0; round <= q.size(); ++round) {
       const VectorX from = x;
-      x += Eigen::CompleteOrthogonalDecomposition<MatrixX>(G_free).solve(G * (q - from) - r);
+      Eigen::CompleteOrthogonalDecomposition<MatrixX> solver;
+      solver.setThreshold(kDependent);
+      solver.compute(G_free);
+      x += solver.solve(G * (q - from) - r);
       bool inside = true;
       for (Eigen::Index i = 0; i < q.size(); ++i) {
         if (held[i] != 0.0 || (x[i] >= box_.lower[i] && x[i] <= box_.upper[i])) continue;
@@ -115,18 +144,22 @@ class RankDrop {
       }
       if (inside) break;
       for (Eigen::Index i = 0; i < q.size(); ++i) {
-        if (held[i] == 0.0) x[i] = target_[i];
+        if (held[i] == 0.0) x[i] = target[i];
       }
     }
     return box_.clamped(x);
   }
 
-  VectorX refined(VectorX q) const {
+  VectorX refined(VectorX q, const VectorX& target, int iterations, bool all_conditions) const {
     MatrixX G;
     VectorX r;
-    for (int i = 0; i < kIterations; ++i) {
+    for (int i = 0; i < iterations; ++i) {
       linearise(q, G, r);
-      VectorX step = projected(q, G, r) - q;
+      if (!all_conditions) {
+        G.conservativeResize(1, Eigen::NoChange);
+        r.conservativeResize(1);
+      }
+      VectorX step = projected(target, q, G, r) - q;
       const double length = step.norm();
       if (length > kLongestStep) step *= kLongestStep / length;
       q += step;

@@ -17,7 +17,9 @@ constexpr std::size_t kFewJoints =
 constexpr std::size_t kMaxRefined = 4;
 constexpr int kIterations = 40;
 constexpr double kDifference = 1e-6;
-constexpr double kConverged = 1e-11;
+constexpr double kHessianDifference = 1e-4;
+constexpr double kConverged = 1e-7;  ///< Of a step; the distance is then right to its square.
+constexpr double kNewtonRange = 0.05;
 
 /// f over the joints that may move, in their own coordinates x.
 class ZeroSurface {
@@ -162,23 +164,24 @@ class ZeroSurface {
       while (share > 1e-3 && 0.5 * cost(x + share * step) + weight * std::abs(value(x + share * step)) > merit)
         share *= 0.5;
       x += share * step;
-      if (step.norm() < 1e-3 && joints_.size() <= kFewJoints) x = newton(x, mu);
       if (step.norm() < kConverged) break;
+      if (step.norm() > kNewtonRange || joints_.size() > kFewJoints) continue;
+      if (const std::optional<VectorX> end = newton(x, mu)) return restored(*end);
     }
     return restored(x);
   }
 
-  /// Newton's method on x = target + mu g, f = 0; returns x as it was where that leads out of the box or away.
-  VectorX newton(const VectorX& start, double mu) const {
+  /// Newton's method on x = target + mu g, f = 0; none where that does not settle nearby in the box.
+  std::optional<VectorX> newton(const VectorX& start, double mu) const {
     const Eigen::Index n = start.size();
     VectorX x = start;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 8; ++i) {
       const VectorX g = gradient(x);
       MatrixX A = MatrixX::Zero(n + 1, n + 1);
       for (Eigen::Index k = 0; k < n; ++k) {
         VectorX moved = x;
-        moved[k] += 1e-4;
-        A.col(k).head(n) = -mu * (gradient(moved) - g) / 1e-4;
+        moved[k] += kHessianDifference;
+        A.col(k).head(n) = -mu / kHessianDifference * (gradient(moved) - g);
       }
       A.topLeftCorner(n, n) += MatrixX::Identity(n, n);
       A.col(n).head(n) = -g;
@@ -186,12 +189,13 @@ class ZeroSurface {
       VectorX residual(n + 1);
       residual << x - target_ - mu * g, value(x);
       const VectorX step = A.partialPivLu().solve(-residual);
-      if (!step.allFinite()) return start;
+      if (!step.allFinite()) return std::nullopt;
       x += step.head(n);
       mu += step[n];
+      if ((x - start).norm() > 4.0 * kNewtonRange || x != clamped(x)) return std::nullopt;
+      if (step.head(n).norm() < kConverged) return x;
     }
-    const bool good = x.allFinite() && x == clamped(x) && (x - start).norm() < 1e-2;
-    return good ? x : start;
+    return std::nullopt;
   }
 
   /// The zero next to x: Newton steps along the gradient of the joints that are not held at a bound.
