@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -87,8 +88,7 @@ TEST_P(KinematicsGolden, CheckerSeesOneWrongColumn) {
   geometricJacobian(file_.chain, c.q, J);
   J.col(J.cols() - 1) *= 1.0 + 1e-8;
   EXPECT_GT(deviation(J, c.jacobian_base), kTolerance);
-  EXPECT_EQ(deviation(J.leftCols(1), c.jacobian_base.leftCols(1)),
-            deviation(c.jacobian_base.leftCols(1), J.leftCols(1)));
+  EXPECT_TRUE(std::isinf(deviation(J.leftCols(1), c.jacobian_base)));
 }
 
 TEST_P(KinematicsGolden, DeterminantWithItsSign) {
