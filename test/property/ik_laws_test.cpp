@@ -60,12 +60,12 @@ class IkLaws : public testing::TestWithParam<int> {
 };
 
 TEST_P(IkLaws, FindsTheGeneratingConfigurationOfRandomArms) {
-  for (int arm_index = 0; arm_index < 20; ++arm_index) {
+  for (int arm_index = 0; arm_index < 30; ++arm_index) {
     const test::ArmMaker::Arm arm = maker_.make(GetParam());
     SCOPED_TRACE(arm.structure + ", arm " + std::to_string(arm_index) + ", seed " + std::to_string(kSeed));
     const InverseKinematics ik(arm.chain, arm.task);
     ASSERT_TRUE(ik.complete()) << ik.method();
-    for (int trial = 0; trial < 25; ++trial) {
+    for (int trial = 0; trial < 50; ++trial) {
       const VectorX q = randomConfiguration(maker_, arm.chain);
       const IkResult result = solveFor(ik, q, false);
       ASSERT_EQ(result.status, IkStatus::kSolved) << result.message;
@@ -81,7 +81,7 @@ TEST_P(IkLaws, FindsTheGeneratingConfigurationOfRandomArms) {
 TEST_P(IkLaws, ASeedThatSolvesComesBackFirstAtAndNearSpecialConfigurations) {
   const double special[] = {0.0, 0.5 * kPi, -0.5 * kPi, kPi};
   const double offsets[] = {0.0, 1e-12, 1e-10, 1e-8, 1e-7, 1e-6, 1e-4, 1e-3};
-  for (int arm_index = 0; arm_index < 8; ++arm_index) {
+  for (int arm_index = 0; arm_index < 20; ++arm_index) {
     const test::ArmMaker::Arm arm = maker_.make(GetParam());
     const InverseKinematics ik(arm.chain, arm.task);
     ASSERT_TRUE(ik.complete());

@@ -171,7 +171,9 @@ bool ClosedFormPlan::reproduces(const SerialChain& chain, const Task& task) cons
     }
     const Pose target = forwardKinematics(chain, q);
     PlanSolutions solutions;
-    solve(target, q.data(), solutions);
+    // Free joints would be given wrong values: a plan that leaves one open in general reproduces nothing.
+    const VectorX elsewhere = q.array() + 1.0;
+    solve(target, elsewhere.data(), solutions);
     if (!contains(solutions, chain, q)) return false;
     for (const PlanSolution& solution : solutions) {
       for (int i = 0; i < chain.size(); ++i) found[i] = solution.q[static_cast<std::size_t>(i)];

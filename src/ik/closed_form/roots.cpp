@@ -106,7 +106,7 @@ Roots solveSinusoid(double k, double a, double b, double scale) {
     roots.always = std::abs(k) <= kNegligible * scale;
     return roots;
   }
-  const double root = squareRootOrNone((amplitude - k) * (amplitude + k), amplitude * amplitude);
+  const double root = squareRootOrNone((amplitude - k) * (amplitude + k), amplitude * std::max(amplitude, scale));
   if (root < 0.0) return roots;
   const double middle = std::atan2(b, a);
   if (root == 0.0) {
