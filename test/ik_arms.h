@@ -73,6 +73,29 @@ class ArmMaker {
   static constexpr int kStructures = 14;
 
   Arm make(int structure) {
+    if (structure < 4) return makePlanar(structure);
+    return structure < 10 ? makeSmall(structure) : makeLarge(structure);
+  }
+
+ private:
+  Arm makePlanar(int structure) {
+    const Vector3 z = Vector3::UnitZ();
+    const double a = length();
+    const double b = length();
+    if (structure == 1)
+      return planar("planar RR", {turn(sign() * z, vector(0.2)), turn(sign() * z, {a, 0, 0})}, false, false);
+    std::vector<Axis> axes = {turn(sign() * z, {0, 0, 0}), turn(sign() * z, {a, 0, 0.1})};
+    if (structure == 3) {
+      axes.insert(axes.begin() + index(3), slide(Vector3(uniform(-1, 1), uniform(-1, 1), 0)));
+      return planar("planar with a slide in the plane", axes, false);
+    }
+    axes.push_back(turn(sign() * z, {a + b, 0, 0}));
+    if (structure == 0) return planar("planar RRR", axes, false);
+    axes.insert(axes.begin() + index(4), slide(sign() * z));
+    return planar("SCARA, slide anywhere", axes, true);
+  }
+
+  Arm makeSmall(int structure) {
     const Vector3 x = Vector3::UnitX();
     const Vector3 y = Vector3::UnitY();
     const Vector3 z = Vector3::UnitZ();
@@ -80,72 +103,53 @@ class ArmMaker {
     const double a = length();
     const double b = length();
     const Task position = Task::fromRows({0, 1, 2});
+    std::vector<Axis> axes = {turn(z, {0, 0, 0}), turn(sign() * y, {0, 0, a}), slide(x)};
     switch (structure) {
-      case 0:
-        return planar("planar RRR",
-                      {turn(sign() * z, {0, 0, 0}), turn(sign() * z, {a, 0, 0.1}), turn(sign() * z, {a + b, 0, 0})},
-                      false);
-      case 1:
-        return planar("planar RR", {turn(sign() * z, vector(0.2)), turn(sign() * z, {a, 0, 0})}, false, false);
-      case 2: {
-        std::vector<Axis> axes = {turn(sign() * z, {0, 0, 0}), turn(sign() * z, {a, 0, 0}),
-                                  turn(sign() * z, {a + b, 0, 0})};
-        axes.insert(axes.begin() + index(4), slide(sign() * z));
-        return planar("SCARA, slide anywhere", axes, true);
-      }
-      case 3: {
-        std::vector<Axis> axes = {turn(sign() * z, {0, 0, 0}), turn(sign() * z, {a, 0, 0})};
-        axes.insert(axes.begin() + index(3), slide(Vector3(uniform(-1, 1), uniform(-1, 1), 0)));
-        return planar("planar with a slide in the plane", axes, false);
-      }
       case 4:
-        return {"RRP, axes meet",
-                chain({turn(z, {0, 0, 0}), turn(sign() * y, {0, 0, a}), slide(x)}, {tool.R, {b, 0, a}}, pose()),
-                position};
+        return {"RRP, axes meet", chain(axes, {tool.R, {b, 0, a}}, pose()), position};
       case 5:
-        return {"RRP, shoulder offset",
-                chain({turn(z, {0, 0, 0}), turn(sign() * y, {0, 0, a}), slide(x)}, {tool.R, {b, 0.3 * a, a}}, pose()),
-                position};
+        return {"RRP, shoulder offset", chain(axes, {tool.R, {b, 0.3 * a, a}}, pose()), position};
       case 6:
-        return {"RRR articulated",
-                chain({turn(z, {0, 0, 0}), turn(sign() * y, {0, 0, a}), turn(sign() * y, {b, 0, a})},
-                      {tool.R, {b + length(), index(2) * 0.2, a}}, pose()),
-                position};
+        axes[2] = turn(sign() * y, {b, 0, a});
+        return {"RRR articulated", chain(axes, {tool.R, {b + length(), index(2) * 0.2, a}}, pose()), position};
       case 7:
-        return {"RRR orthogonal",
-                chain({turn(z, {0, 0, 0}), turn(y, {0, 0, 0}), turn(z, {0, a, 0})}, {tool.R, {b, a, 0}}, pose()),
-                position};
-      case 8: {
-        std::vector<Axis> axes = {slide(z), slide(x)};
-        axes.insert(axes.begin(), turn(z, {0, 0, 0}));
+        axes = {turn(z, {0, 0, 0}), turn(y, {0, 0, 0}), turn(z, {0, a, 0})};
+        return {"RRR orthogonal", chain(axes, {tool.R, {b, a, 0}}, pose()), position};
+      case 8:
+        axes = {turn(z, {0, 0, 0}), slide(z), slide(x)};
         if (index(2) == 0) std::swap(axes[0], axes[1]);
         return {"cylindrical", chain(axes, {tool.R, {a, 0.1 * index(2), b}}, pose()), position};
-      }
-      case 9:
-        return {"orienting 3R",
-                chain({turn(direction(), vector(1)), turn(direction(), vector(1)), turn(direction(), vector(1))}, tool,
-                      pose()),
-                Task::fromRows({3, 4, 5})};
-      case 10:
-        return wristed("SCARA-type arm, wrist", {turn(z, {0, 0, 0}), turn(z, {a, 0, 0}), slide(z)}, {a + b, 0, 0},
-                       tool);
-      case 11:
-        return wristed("articulated arm, wrist", {turn(z, {0, 0, 0}), turn(y, {0, 0, a}), turn(y, {b, 0, a})},
-                       {b + length(), 0.1 * index(2), a}, tool);
-      case 12: {
-        std::vector<Axis> axes = {slide(direction()), turn(direction(), vector(0.4)), turn(direction(), vector(0.4))};
-        if (index(2) == 0) std::swap(axes[0], axes[index(2) + 1]);
-        return wristed("a slide and two turns in general, wrist", axes, vector(0.6), tool);
-      }
       default:
-        return {"three slides or a turn between two",
-                chain({slide(x + 0.2 * vector(1)), index(2) == 0 ? slide(y) : turn(z, vector(0.3)), slide(z + 0.3 * y)},
-                      tool, pose()),
-                position};
+        axes = {turn(direction(), vector(1)), turn(direction(), vector(1)), turn(direction(), vector(1))};
+        return {"orienting 3R", chain(axes, tool, pose()), Task::fromRows({3, 4, 5})};
     }
   }
 
- private:
+  Arm makeLarge(int structure) {
+    const Vector3 y = Vector3::UnitY();
+    const Vector3 z = Vector3::UnitZ();
+    const Pose tool{rotationAbout(direction(), uniform(-3, 3)), vector(0.4)};
+    const double a = length();
+    const double b = length();
+    std::vector<Axis> axes;
+    switch (structure) {
+      case 10:
+        axes = {turn(z, {0, 0, 0}), turn(z, {a, 0, 0}), slide(z)};
+        return wristed("SCARA-type arm, wrist", axes, {a + b, 0, 0}, tool);
+      case 11:
+        axes = {turn(z, {0, 0, 0}), turn(y, {0, 0, a}), turn(y, {b, 0, a})};
+        return wristed("articulated arm, wrist", axes, {b + length(), 0.1 * index(2), a}, tool);
+      case 12:
+        axes = {slide(direction()), turn(direction(), vector(0.4)), turn(direction(), vector(0.4))};
+        if (index(2) == 0) std::swap(axes[0], axes[static_cast<std::size_t>(index(2)) + 1]);
+        return wristed("a slide and two turns in general, wrist", axes, vector(0.6), tool);
+      default:
+        axes = {slide(Vector3::UnitX() + 0.2 * vector(1)), index(2) == 0 ? slide(y) : turn(z, vector(0.3)),
+                slide(z + 0.3 * y)};
+        return {"three slides or a turn between two", chain(axes, tool, pose()), Task::fromRows({0, 1, 2})};
+    }
+  }
+
   Arm planar(const std::string& name, const std::vector<Axis>& axes, bool with_height, bool with_heading = true) {
     // The plane's normal is any base axis: rows are those of the plane.
     const int normal = index(3);
