@@ -1,5 +1,8 @@
 """What a scenario says: each line starts with [scenario], the summary comes last."""
+import genpy
 import numpy as np
+
+from .messages import flattened
 
 WIDTH = 60
 
@@ -51,6 +54,8 @@ class Report:
 
 def formatted(value, columns=None):
     """A value as a table shows it; lists of numbers in rows of `columns`."""
+    if isinstance(value, genpy.Message):
+        value = flattened(value)
     if isinstance(value, float):
         return '%.6g' % value
     if isinstance(value, (list, tuple, np.ndarray)) and len(value) and isinstance(value[0], (int, float)):

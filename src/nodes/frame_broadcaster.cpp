@@ -36,9 +36,8 @@ ros::Subscriber listen(ros::NodeHandle& node, const std::string& topic, FrameBro
   return node.subscribe<Message>(topic, kQueue, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
 }
 
-void broadcastRobot() {
+void broadcastRobot(ros::NodeHandle& private_node) {
   ros::NodeHandle node;
-  ros::NodeHandle private_node("~");
   XmlRpc::XmlRpcValue values;
   private_node.getParam("", values);
   const BroadcasterParams params = readBroadcasterParams(values);
@@ -77,8 +76,9 @@ std::string inOneLine(std::string text) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, kFrameBroadcasterNode);
+  ros::NodeHandle private_node("~");  // The console is silent once the last handle is gone.
   try {
-    broadcastRobot();
+    broadcastRobot(private_node);
     return 0;
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM("the robot can not be broadcast: " << inOneLine(error.what()));

@@ -197,4 +197,4 @@ class Refusals(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rostest.rosrun('screwline', 'frame_broadcaster', __name__)
+    rostest.rosrun('screwline', 'frame_broadcaster_test', __name__)
