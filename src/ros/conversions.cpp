@@ -66,6 +66,7 @@ geometry_msgs::Pose toPose(const Pose& pose) {
   Quaternion q(pose.R);
   q.normalize();
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  q.coeffs().array() += 0.0;  // No -0 for people to read.
   geometry_msgs::Pose message;
   message.position.x = pose.p.x();
   message.position.y = pose.p.y();

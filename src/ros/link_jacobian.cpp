@@ -39,6 +39,12 @@ SubChain chainTo(const SerialChain& chain, const Link& link) {
 LinkJacobians linkJacobians(const SerialChain& chain, const Link& link, const ConstVectorRef& q) {
   LinkJacobians result;
   result.X_BL = linkPose(chain, link, q);
+  if (link.name == chain.tipLink()) {
+    for (int i = 0; i < kJacobianMethodCount; ++i) {
+      result.by_method[static_cast<std::size_t>(i)] = jacobian(chain, q, static_cast<JacobianMethod>(i));
+    }
+    return result;
+  }
   for (Matrix6X& J : result.by_method) J = Matrix6X::Zero(6, chain.size());
   if (link.axis_count == 0) return result;
   const SubChain part = chainTo(chain, link);

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Every number of the 24 golden files as kinematics_server answers it: the robots of urdf/, and each model made anew."""
+"""Every number of the golden files as kinematics_server answers it: the robots of urdf/, other models made anew."""
 
 import copy
 import functools
@@ -18,6 +18,8 @@ from test_robot_files import GOLDEN_OF
 
 TOLERANCE = 1e-9
 TIP = 'tool0'
+TO_JOINT = ComputeVelocityRequest.TWIST_TO_JOINT
+TO_WRENCH = ComputeStaticsRequest.EFFORT_TO_WRENCH
 
 
 def vector3(values):
@@ -107,11 +109,12 @@ class Checks:
     def check_velocity(self, server, case):
         rates = case['velocity']['qd']
         for frame, key in (('', 'twist_base'), (TIP, 'twist_tool')):
-            answer = server.ask('compute_velocity', joint_state=state(case['q'], velocity=rates), twist=twist([0] * 6, frame))
+            moving = state(case['q'], velocity=rates)
+            answer = server.ask('compute_velocity', joint_state=moving, twist=twist([0] * 6, frame))
             self.close(components(answer.twist.twist), case['velocity'][key])
             self.assertEqual(answer.twist.header.frame_id, frame or 'base_link')
-            back = server.ask('compute_velocity', joint_state=state(case['q']), twist=twist(case['velocity'][key], frame),
-                              direction=ComputeVelocityRequest.TWIST_TO_JOINT)
+            wanted = twist(case['velocity'][key], frame)
+            back = server.ask('compute_velocity', joint_state=state(case['q']), twist=wanted, direction=TO_JOINT)
             self.assertTrue(back.exact, case['id'])
             if case['kind'] == 'regular':
                 self.close(back.velocity, rates, 1e-8)
@@ -125,8 +128,8 @@ class Checks:
             self.assertEqual(len(answer.supported_wrenches), 6 * (6 - case['rank_full']))
             self.close(matrix(answer.supported_wrenches, 6) @ np.array(case['jacobian_base']),
                        np.zeros((6 - case['rank_full'], len(case['q']))))
-            back = server.ask('compute_statics', joint_state=state(case['q']), effort=answer.effort, wrench=wrench(load, frame),
-                              direction=ComputeStaticsRequest.EFFORT_TO_WRENCH)
+            back = server.ask('compute_statics', joint_state=state(case['q']), effort=answer.effort,
+                              wrench=wrench(load, frame), direction=TO_WRENCH)
             if case['kind'] == 'regular':
                 self.assertTrue(back.exact)
                 self.close(back.effort, answer.effort)
@@ -143,7 +146,8 @@ class Checks:
             expected = [solution['q'] for solution in case['ik']['solutions']]
             self.assertEqual(len(found), len(expected), (found, expected))
             for solution in expected:
-                self.assertLess(min(gap(solution, other, turning) for other in found), 1e-6, (case['id'], found, expected))
+                nearest = min(gap(solution, other, turning) for other in found)
+                self.assertLess(nearest, 1e-6, (case['id'], found, expected))
         else:
             self.assertTrue(any(solution.self_motion for solution in answer.solutions), case['id'])
 

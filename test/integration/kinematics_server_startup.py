@@ -20,11 +20,16 @@ TWO_ARMS = PLANAR.replace('</robot>', '''
 </robot>''')
 
 
+SNAKE_JOINT = '''
+<joint name="j%d" type="revolute">
+  <parent link="l%d"/><child link="l%d"/><origin xyz="0.1 0 0"/><axis xyz="0 0 1"/>
+  <limit lower="-1" upper="1" effort="1" velocity="1"/>
+</joint>'''
+
+
 def snake(joints):
     links = ''.join('<link name="l%d"/>' % i for i in range(joints + 1))
-    return '<robot name="snake">%s%s</robot>' % (links, ''.join('''
-      <joint name="j%d" type="revolute"><parent link="l%d"/><child link="l%d"/><origin xyz="0.1 0 0"/><axis xyz="0 0 1"/>
-      <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>''' % (i, i, i + 1) for i in range(joints)))
+    return '<robot name="snake">%s%s</robot>' % (links, ''.join(SNAKE_JOINT % (i, i, i + 1) for i in range(joints)))
 
 
 class Refused(unittest.TestCase):

@@ -163,7 +163,9 @@ TEST(RobotLoader, WhatIsRefused) {
   params.max_joints = 2;
   expectModelError([&] { makeRobot({armUrdf(), "d", {}}, params); }, "chain 'arm' has 3 joints, ~max_joints is 2");
   expectModelError([&] { makeRobot({"<robot", "d", {}}, {}); }, "");
-  expectModelError([&] { makeRobot({armUrdf(), "d", {}}, {}); }, "");
+  params = toCamera();
+  params.tip_link = "hand";
+  expectModelError([&] { makeRobot({armUrdf(), "d", {}}, params); }, "'hand'");
 }
 
 }  // namespace
