@@ -12,14 +12,14 @@ from .expressions import number, numbers
 from .messages import FieldError, fill, lookup
 from .expectations import compare, compare_numbers
 from .report import formatted, labelled
-from .streams import MotionStreams, between, interpolated
+from .streams import MotionStreams, between, interpolated, samples_of
 
 SECONDS_TO_START = 5  # that a motion may take to begin after its execution was asked for
 MOVE_KEYS = {'title', 'profile', 'waypoints', 'duration', 'parameters', 'scaling', 'expect', 'tolerance', 'print', 'at', 'table'}
 ANSWER_TOLERANCE = 1e-9
 STREAM_TOLERANCE = 1e-6
 SHAPE_TOLERANCE = 1e-4  # where the plan is only known at its samples
-REST = 1e-4  # [rad or m] nearer to its first waypoint a motion begins without a transfer
+REST = 1e-7  # [rad or m] nearer to its first waypoint a motion begins without a transfer
 
 
 class Mover:
@@ -109,7 +109,9 @@ class Mover:
         if not self.streams.wait_for(lambda: self.streams.trajectory is not before, SECONDS_TO_START):
             self.report.check('joint_trajectory', 'nothing was published')
             return False
-        begin = self.streams.trajectory.header.stamp
+        announced = self.streams.trajectory
+        lead = announced.points[-1].time_from_start.to_sec() - planned.duration
+        begin = announced.header.stamp + rospy.Duration(max(lead, 0.0))
         end = begin + rospy.Duration(planned.duration + 2.0 / self.part.rate)
         over = self.streams.wait_for(lambda: self.streams.states.latest()[0] >= end,
                                      planned.duration + SECONDS_TO_START)
@@ -128,9 +130,8 @@ class Mover:
     def judge_stream(self, answer):
         """The stream is dense, in order, and what was planned."""
         seconds, rows = self.window()
-        expected = int(round(answer.duration * self.part.rate)) + 1
-        self.report.check('%d samples streamed' % len(seconds),
-                          '' if abs(len(seconds) - expected) <= 1 else 'expected %d' % expected)
+        expected = samples_of(answer.duration, self.part.rate)
+        self.report.check('%d samples streamed' % len(seconds), '' if len(seconds) == expected else 'expected %d' % expected)
         problem = '' if len(seconds) > 1 and np.diff(seconds).min() > 0 else 'they are not'
         self.report.check('stamps increase', problem)
         if problem:

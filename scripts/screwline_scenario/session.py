@@ -9,6 +9,8 @@ import urllib.parse
 import rosgraph
 import rosservice
 
+from .description import package_path
+
 STOP_SECONDS = 10
 START_SECONDS = 60
 
@@ -34,7 +36,7 @@ class Process:
 
     def last_lines(self, count=12):
         with open(self.log, errors='replace') as stream:
-            return ''.join(line for line in stream.readlines() if line.strip())[-200 * count:].rstrip()
+            return ''.join([line for line in stream.readlines() if line.strip()][-count:]).rstrip()
 
     def stop(self):
         """Interrupts it and waits; what does not end is killed. Its exit code."""
@@ -75,6 +77,10 @@ def wait_until(condition, processes, what, seconds=START_SECONDS):
         time.sleep(0.05)
 
 
+def urdf_of(robot):
+    return robot if robot.endswith('.urdf') else os.path.join(package_path(), 'urdf', robot + '.urdf')
+
+
 class Session:
     """The nodes of one robot, by bringup.launch."""
 
@@ -82,6 +88,8 @@ class Session:
         self.nodes = ['kinematics_server', 'frame_broadcaster'] + ['trajectory_generator'] * part.motion
         self.master = rosgraph.Master('/scenario')
         self.refuse_second()
+        if not os.path.exists(urdf_of(part.robot)):
+            raise NotRunnable('there is no robot %s: %s is missing' % (part.robot, urdf_of(part.robot)))
         for node, parameters in part.parameters.items():
             for name, value in parameters.items():
                 self.master.setParam('/%s/%s' % (node, name), value)

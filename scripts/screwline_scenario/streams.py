@@ -1,4 +1,5 @@
 """What the trajectory generator streams, kept by stamp, and its value at an instant."""
+import math
 import threading
 import time
 
@@ -42,6 +43,11 @@ def between(seconds, rows, first, last):
     """The part of a stream within [first, last], to the clock's resolution."""
     inside = (seconds >= first - 1e-7) & (seconds <= last + 1e-7)
     return seconds[inside], rows[inside]
+
+
+def samples_of(duration, rate):
+    """How many samples a motion has: one each period from its start on, and one at its end."""
+    return math.ceil(duration * rate - 1e-6) + 1
 
 
 def interpolated(seconds, rows, instant):

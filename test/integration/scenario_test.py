@@ -2,6 +2,7 @@
 """Runs one scenario with recording, as a user does, and looks into its bags with nothing of the runner's own."""
 import csv
 import glob
+import math
 import os
 import re
 import subprocess
@@ -91,8 +92,8 @@ class ScenarioRun(unittest.TestCase):
                 self.assertTrue((np.diff(stamps) > 0).all(), '%s %s' % (path, topic))
                 for begin, duration, _ in bag.motions():
                     seconds = (stamps[(stamps >= begin - 100) & (stamps <= begin + duration + 100)] - begin) * 1e-9
-                    expected = round(duration * 1e-9 * rate) + 1
-                    self.assertLessEqual(abs(len(seconds) - expected), 1, '%s %s' % (path, topic))
+                    expected = math.ceil(duration * 1e-9 * rate - 1e-6) + 1
+                    self.assertEqual(len(seconds), expected, '%s %s' % (path, topic))
                     self.assertLess(seconds[0], 1.01 / rate)
                     self.assertGreater(seconds[-1], duration * 1e-9 - 1.01 / rate)
                     self.assertLess(np.diff(seconds).max(), 2.5 / rate, '%s %s' % (path, topic))
