@@ -15,6 +15,8 @@ import rospkg
 import rospy
 import rostest
 import yaml
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
 
 ROOT = rospkg.RosPack().get_path('screwline')
 TOPICS = {'/joint_states', '/joint_trajectory', '/tf', '/tf_static', '/frame_broadcaster/markers', '/metrics', '/time_scaling',
@@ -133,6 +135,23 @@ class ScenarioRun(unittest.TestCase):
                 t, p = transform.transform.translation, pose.position
                 self.assertLess(max(abs(t.x - p.x), abs(t.y - p.y), abs(t.z - p.z)), 1e-9, path)
             self.assertGreater(compared, 50)
+
+    def test_replay_plays_all_of_it(self):
+        if self.name != 'rrprrr_twist':
+            return
+        states, clocks = [], []
+        subscribers = [rospy.Subscriber('/joint_states', JointState, states.append, queue_size=1000),
+                       rospy.Subscriber('/clock', Clock, clocks.append, queue_size=1000)]
+        try:
+            command = ['roslaunch', 'screwline', 'replay.launch', 'bag:=' + self.paths[0], 'robot:=rrprrr', 'rviz:=false']
+            subprocess.run(command, stdout=subprocess.DEVNULL, timeout=60, check=True)
+        finally:
+            rospy.delete_param('/use_sim_time')
+        rospy.sleep(0.2)
+        for subscriber in subscribers:
+            subscriber.unregister()
+        self.assertEqual(len(states), len(self.bags[0].messages['/joint_states']))
+        self.assertTrue(clocks)
 
     def test_tool_twist_of_seed_001(self):
         if self.name != 'rrp_tool_velocity':

@@ -123,7 +123,7 @@ class Descriptions(unittest.TestCase):
     def test_every_scenario_loads(self):
         names = description.scenario_names()
         self.assertLessEqual({'prrr_retraction', 'rrp_tool_velocity', 'planar_3r_via', 'planar_3r_multipoint', 'rrprrr_twist',
-                              'orienting_statics', 'craig_eight'}, set(names))
+                              'orienting_statics', 'craig_eight', 'demo'}, set(names))
         for name in names:
             scenario = description.load_scenario(name)
             self.assertTrue(scenario.description, name)
