@@ -20,6 +20,9 @@ constexpr double kNoStep = 1e-10;        ///< Scaled; shorter steps change a sol
 constexpr int kMaxRejected = 8;
 constexpr int kMaxRefinements = 24;  ///< Steps halve the way to a double root: from 1e-6 to rounding, and to spare.
 constexpr int kMaxRounds = 6;
+constexpr double kAhead = 1e-2;        ///< Below this error the cost may rise for ...
+constexpr int kStepsAhead = 4;         ///< ... so many Newton steps ...
+constexpr double kLongestAhead = 0.3;  ///< ... of this scaled length at most.
 constexpr int kWatchPeriod = 4;
 
 }  // namespace
@@ -40,7 +43,7 @@ bool Watch::expired() const {
 Descent::Descent(const SerialChain& chain, const Task& task, const Pose& target, const DescentOptions& options,
                  const Watch& watch)
     : residual_(chain, task, target, options.rotation_weight),
-      box_(chain, options.honour_limits),
+      box_(chain, options.honour_limits, (target.p - chain.home().p).norm()),
       active_(box_),
       options_(options),
       watch_(watch) {}
@@ -101,12 +104,37 @@ Descent::Outcome Descent::levenbergMarquardt() {
       rejected = 0;
       if (current_->cost < kGoodStep * cost_before) mu *= kDampingDecay;
       if (isSlow(cost_before)) return Outcome::kSlow;
+    } else if (++rejected == 1 && current_->error.norm() < kAhead && newtonAhead()) {
+      rejected = 0;
     } else {
       mu *= kDampingGrowth;
-      if (++rejected >= kMaxRejected || scaledLength(step) < kNoStep) return Outcome::kStationary;
+      if (rejected >= kMaxRejected || scaledLength(step) < kNoStep) return Outcome::kStationary;
     }
   }
   return Outcome::kSolved;
+}
+
+bool Descent::newtonAhead() {
+  // At a solution that is almost double the valley is narrow and bent: a Newton step along it climbs the wall, the next
+  // one comes down further on. So the cost may rise for a few steps (watchdog technique, Chamberlain et al. 1982).
+  const JointVector q = current_->q;
+  const double cost = current_->cost;
+  for (int k = 0; k < kStepsAhead; ++k) {
+    if (k > 0) active_.update(*current_);
+    if (active_.columnScale(*current_) == 0.0) break;
+    const JointVector& step = active_.step(*current_, kDampingFloor * active_.columnScale(*current_));
+    if (scaledLength(step) > kLongestAhead) break;
+    ++iterations_;
+    trial_->q = current_->q + step;
+    box_.confine(trial_->q);
+    residual_.evaluate(*trial_);
+    std::swap(current_, trial_);
+    if (current_->cost < kGoodStep * cost) return true;
+  }
+  current_->q = q;
+  residual_.evaluate(*current_);
+  active_.update(*current_);
+  return false;
 }
 
 void Descent::refine() {

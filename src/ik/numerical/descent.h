@@ -49,6 +49,7 @@ class Descent {
   enum class Outcome { kSolved, kStationary, kSlow, kStopped };
 
   Outcome levenbergMarquardt();
+  bool newtonAhead();
   double damping(double mu) const;
   bool isSlow(double cost_before);
   void refine();

@@ -8,7 +8,8 @@
 namespace screwline {
 namespace {
 
-constexpr double kFarTurn = 1e3;  ///< [rad] beyond it a joint without bounds begins anew: digits are lost there.
+constexpr double kNoLength = 2e-6;  ///< [m] characteristicLength() is at least half of it.
+constexpr double kFarTurn = 1e3;    ///< [rad] beyond it a joint without bounds begins anew: digits are lost there.
 
 int nextPrime(int after) {
   for (int candidate = after + 1;; ++candidate) {
@@ -20,9 +21,20 @@ int nextPrime(int after) {
 
 }  // namespace
 
-JointBox::JointBox(const SerialChain& chain, bool honour_limits) {
+double lengthUnit(const SerialChain& chain) {
+  if (chain.characteristicLength() > kNoLength) return chain.characteristicLength();
+  double longest = 0.0;
+  for (const Joint& joint : chain.joints()) {
+    const double range = joint.limits.upper - joint.limits.lower;
+    if (!joint.isRevolute() && std::isfinite(range)) longest = std::max(longest, range);
+  }
+  return longest > kNoLength ? longest : 1.0;
+}
+
+JointBox::JointBox(const SerialChain& chain, bool honour_limits, double reach) {
   const double infinity = std::numeric_limits<double>::infinity();
   const int n = chain.size();
+  const double length = lengthUnit(chain);
   lower_ = honour_limits ? chain.lower() : VectorX::Constant(n, -infinity);
   upper_ = honour_limits ? chain.upper() : VectorX::Constant(n, infinity);
   unit_ = JointVector::Ones(n);
@@ -35,8 +47,8 @@ JointBox::JointBox(const SerialChain& chain, bool honour_limits) {
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!chain.joint(i).isRevolute()) {
-      unit_[i] = chain.characteristicLength();
-      half_span_[i] = 2.0 * unit_[i];
+      unit_[i] = length;
+      half_span_[i] = 2.0 * std::max(length, reach);
     }
     free_[k] = (std::isinf(lower_[i]) && std::isinf(upper_[i])) || (periodic_[k] && upper_[i] - lower_[i] >= kTwoPi);
   }

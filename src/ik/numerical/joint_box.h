@@ -5,11 +5,15 @@
 
 namespace screwline {
 
+/// What a unit of length is for the chain [m]: its characteristic length, or where all axes and the tip meet in one
+/// point the longest slide within limits, else 1.
+double lengthUnit(const SerialChain& chain);
+
 /// The joint space of a search: bounds, which joints go round, what a step of one unit is.
 class JointBox {
  public:
-  /// Without `honour_limits` no joint is bounded.
-  JointBox(const SerialChain& chain, bool honour_limits);
+  /// Without `honour_limits` no joint is bounded. `reach` [m] is how far a slide without bounds may have to go.
+  JointBox(const SerialChain& chain, bool honour_limits, double reach);
 
   int size() const { return static_cast<int>(lower_.size()); }
   double lower(int i) const { return lower_[i]; }
@@ -22,7 +26,7 @@ class JointBox {
   /// on one side comes in on the other.
   bool isFree(int i) const { return free_[static_cast<std::size_t>(i)]; }
 
-  /// What one unit of the scaled step is: 1 rad, or the chain's characteristic length.
+  /// What one unit of the scaled step is: 1 rad, or lengthUnit().
   double unit(int i) const { return unit_[i]; }
 
   /// Into the bounds: joints that go round by full turns, the others clamped. Joints without bounds keep their turn.
@@ -35,7 +39,7 @@ class JointBox {
   double distance(const ConstVectorRef& a, const ConstVectorRef& b) const;
 
   /// Point `index` >= 1 of a fixed quasi-random sequence in the box, where a joint without bounds has one full turn,
-  /// or twice the chain's characteristic length to both sides (Richtmyer's sequence: multiples of the square roots of
+  /// or twice the unit of length or the reach to both sides (Richtmyer's sequence: multiples of the square roots of
   /// the primes).
   VectorX restart(int index) const;
 

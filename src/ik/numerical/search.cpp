@@ -13,7 +13,7 @@ constexpr double kSame = 1e-6;         ///< Every joint closer: one solution.
 constexpr double kPerhapsSame = 1e-3;  ///< Closer: one solution where it is known no better than that.
 constexpr double kRounding = 1e-15;    ///< Of the chain's size: what forward kinematics leaves of the residual.
 constexpr double kBandFactor = 10.0;
-/// Rotation beside translation, in characteristic lengths: what solves most poses per iteration.
+/// Rotation beside translation, in units of length: what solves most poses per iteration.
 constexpr double kSearchWeight = 0.5;
 
 /// Start `index`: the given ones first.
@@ -28,8 +28,7 @@ double jointBand(const SerialChain& chain, const Task& task, const VectorX& q, d
   geometricJacobian(chain, q, J);
   const Eigen::JacobiSVD<MatrixX> svd(task.select(J));
   const double smallest = svd.singularValues().minCoeff();
-  return smallest > 0.0 ? kBandFactor * (residual + kRounding * (1.0 + chain.characteristicLength())) / smallest
-                        : kPerhapsSame;
+  return smallest > 0.0 ? kBandFactor * (residual + kRounding * (1.0 + lengthUnit(chain))) / smallest : kPerhapsSame;
 }
 
 bool isKnown(const SerialChain& chain, const Task& task, const JointBox& box, const std::vector<VectorX>& solutions,
@@ -49,7 +48,7 @@ SearchResult search(const SerialChain& chain, const Task& task, const Pose& targ
                     const SearchOptions& options) {
   const Watch watch(options.timeout, options.cancelled);
   DescentOptions descent_options = options.descent;
-  descent_options.rotation_weight = kSearchWeight * chain.characteristicLength();
+  descent_options.rotation_weight = kSearchWeight * lengthUnit(chain);
   Descent descent(chain, task, target, descent_options, watch);
   SearchResult result;
   const int count = std::max(1, static_cast<int>(starts.size()) + options.restarts);

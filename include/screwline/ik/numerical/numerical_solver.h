@@ -48,7 +48,7 @@ struct SearchOptions {
   DescentOptions descent;
   int max_solutions = 0;  ///< Stop when so many different ones are found; 0: search until `restarts`.
   /// Deterministic quasi-random starts within limits, after the given ones. Where there are no limits: a full turn, or
-  /// two characteristic lengths to both sides.
+  /// to both sides two characteristic lengths or twice the target's distance from home.
   int restarts = 256;
   double timeout = 0.1;             ///< [s] Looked at every few iterations; the first descent begins in any case.
   std::function<bool()> cancelled;  ///< Asked as often; may be empty.
