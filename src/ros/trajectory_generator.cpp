@@ -1,0 +1,101 @@
+#include "screwline/ros/trajectory_generator.h"
+
+#include <boost/function.hpp>
+
+#include "screwline/ros/checks.h"
+#include "screwline/ros/trajectory_conversions.h"
+
+namespace screwline {
+namespace ros_bridge {
+namespace {
+
+/// Offers one method of the generator as a service.
+template <typename Service, typename Body>
+ros::ServiceServer offer(ros::NodeHandle& node, const std::string& name, const Body& body) {
+  using Request = typename Service::Request;
+  using Response = typename Service::Response;
+  const boost::function<bool(Request&, Response&)> callback = [name, body](Request& request, Response& response) {
+    return serve(name, response, [&] { return body(request, response); });
+  };
+  return node.advertiseService<Request, Response>(name, callback);
+}
+
+/// std_srvs/Trigger has no error_code.
+ros::ServiceServer offerTrigger(ros::NodeHandle& node, const std::string& name, const std::function<Outcome()>& body) {
+  using Request = std_srvs::Trigger::Request;
+  using Response = std_srvs::Trigger::Response;
+  const boost::function<bool(Request&, Response&)> callback = [name, body](Request&, Response& response) {
+    const Outcome outcome = detail::run(response, body);
+    detail::logOutcome(name, outcome);
+    response.success = outcome.code == ErrorCode::kSuccess;
+    response.message = outcome.message;
+    return true;
+  };
+  return node.advertiseService<Request, Response>(name, callback);
+}
+
+VectorX initialPosition(const SerialChain& chain, const std::vector<double>& given) {
+  if (given.empty()) return chain.clamped(VectorX::Zero(chain.size()));
+  if (given.size() != static_cast<std::size_t>(chain.size())) {
+    throw ModelError("~initial_position has " + std::to_string(given.size()) + " values, chain " +
+                     quoted(chain.name()) + " has " + std::to_string(chain.size()) + " joints");
+  }
+  const VectorX position = Eigen::Map<const VectorX>(given.data(), chain.size());
+  for (int j = 0; j < chain.size(); ++j) {
+    const JointLimits& limits = chain.joint(j).limits;
+    if (position[j] >= limits.lower && position[j] <= limits.upper) continue;
+    throw ModelError("~initial_position has " + numberText(position[j]) + " for joint " + quoted(chain.joint(j).name) +
+                     ", its limits are " + numberText(limits.lower) + " to " + numberText(limits.upper));
+  }
+  return position;
+}
+
+}  // namespace
+
+TrajectoryGenerator::TrajectoryGenerator(ServedRobot robot, const TrajectoryParams& params, FrameLookup lookup,
+                                         MotionClock clock, const GeneratorSinks& sinks)
+    : robot_(std::move(robot)),
+      limits_(limitsOf(*robot_.chain)),
+      sinks_(sinks),
+      planner_(robot_, params.ik_timeout, std::move(lookup)),
+      streams_(robot_.chain, sinks),
+      executor_(initialPosition(*robot_.chain, params.initial_position), params.rate, std::move(clock),
+                [this](const StreamSample& sample) { streams_.publish(sample); }) {}
+
+void TrajectoryGenerator::advertise(ros::NodeHandle& private_node) {
+  services_ = {
+      offer<PlanTrajectory>(private_node, kPlanService,
+                            [this](const auto& request, auto& response) { return plan(request, response); }),
+      offer<ExecuteTrajectory>(private_node, kExecuteService,
+                               [this](const auto& request, auto& response) { return execute(request, response); }),
+      offer<ListProfiles>(private_node, kListProfilesService,
+                          [this](const auto& request, auto& response) { return listProfiles(request, response); }),
+      offerTrigger(private_node, kStopService, [this] { return stop(); }),
+  };
+}
+
+Outcome TrajectoryGenerator::plan(const PlanTrajectory::Request& request, PlanTrajectory::Response& response) {
+  const auto planned = std::make_shared<PlannedMotion>();
+  const Outcome outcome = planner_.plan(request, executor_.state().position, response, *planned);
+  const std::lock_guard<std::mutex> lock(planned_mutex_);
+  planned_ = planned;
+  return outcome;
+}
+
+Outcome TrajectoryGenerator::listProfiles(const ListProfiles::Request&, ListProfiles::Response& response) const {
+  for (const ProfileInfo& profile : screwline::listProfiles()) {
+    ProfileInfoMsg detail;
+    detail.name = profile.name;
+    detail.meaning = profile.meaning;
+    for (const ParameterInfo& parameter : profile.parameters) {
+      detail.parameter_names.push_back(parameter.name);
+      detail.parameter_meanings.push_back(parameter.meaning);
+    }
+    response.profiles.push_back(profile.name);
+    response.details.push_back(detail);
+  }
+  return {};
+}
+
+}  // namespace ros_bridge
+}  // namespace screwline
