@@ -152,7 +152,9 @@ std::string InverseKinematics::Implementation::account(const IkRequest& request,
                                    ? ", " + std::to_string(result.outside_limits) + " more break joint limits"
                                    : std::string();
   std::string incomplete;
-  if (!result.complete) {
+  if (result.left_out > 0) {
+    incomplete = "; " + std::to_string(result.left_out) + " left out by max_solutions";
+  } else if (!result.complete) {
     incomplete = plan ? "; the list may be incomplete: a continuum was met whose members had to be searched"
                       : "; the list may be incomplete: found by numerical search";
   }
@@ -181,6 +183,7 @@ void InverseKinematics::Implementation::conclude(const IkRequest& request, const
   std::sort(result.solutions.begin(), result.solutions.end(), isNearer);
   const auto limit = static_cast<std::size_t>(request.max_solutions);
   if (limit > 0 && result.solutions.size() > limit) {
+    result.left_out = static_cast<int>(result.solutions.size() - limit);
     result.solutions.resize(limit);
     result.complete = false;
   }

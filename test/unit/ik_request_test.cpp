@@ -154,6 +154,7 @@ TEST(IkRequest, MaxSolutionsCutsTheListAndSaysSo) {
   const IkResult result = InverseKinematics(chain, kPlane).solve(request);
   EXPECT_EQ(result.solutions.size(), 1U);
   EXPECT_FALSE(result.complete);
+  EXPECT_NE(result.message.find("1 left out by max_solutions"), std::string::npos) << result.message;
 }
 
 TEST(IkRequest, AContinuumTellsItsRangeWithinLimits) {

@@ -54,6 +54,7 @@ struct IkResult {
   bool complete = false;              ///< Every isolated solution and every continuum is in the list.
   std::string method;                 ///< How they were found.
   int outside_limits = 0;             ///< Solutions that exist but break limits.
+  int left_out = 0;                   ///< Solutions beyond max_solutions: the list is cut, and not complete.
   bool timed_out = false;
   IkSolution closest;                  ///< Best reachable configuration where there is no solution.
   double distance_to_reachable = 0.0;  ///< sqrt(position_error^2 + (rotation_weight orientation_error)^2) of `closest`.
