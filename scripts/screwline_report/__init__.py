@@ -1,0 +1,1 @@
+"""What `rosrun screwline report` is made of."""
