@@ -56,8 +56,9 @@ int main(int argc, char** argv) {
   ros::NodeHandle node;
   // The empty service is served by another process, as the kinematics are: started with --serve.
   if (argc > 1 && std::string(argv[1]) == "--serve") {
-    const ros::ServiceServer server = node.advertiseService<std_srvs::Empty::Request, std_srvs::Empty::Response>(
-        "/empty_service", [](std_srvs::Empty::Request&, std_srvs::Empty::Response&) { return true; });
+    const boost::function<bool(std_srvs::Empty::Request&, std_srvs::Empty::Response&)> answer =
+        [](std_srvs::Empty::Request&, std_srvs::Empty::Response&) { return true; };
+    const ros::ServiceServer server = node.advertiseService("/empty_service", answer);
     ros::AsyncSpinner spinner(0);
     spinner.start();
     ros::waitForShutdown();
