@@ -96,6 +96,19 @@ struct BadTable {
   std::vector<std::string> said;
 };
 
+void expectRefused(const BadTable& bad) {
+  try {
+    readDhYaml(bad.yaml);
+    ADD_FAILURE() << "was read:\n" << bad.yaml;
+  } catch (const ModelError& error) {
+    for (const std::string& part : bad.said) {
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
+          << "no \"" << part << "\" in: " << error.what() << "\n"
+          << bad.yaml;
+    }
+  }
+}
+
 TEST(DhReader, BadTablesAreRefusedAndTheMessageSaysWhy) {
   const auto with = [](const std::string& from, const std::string& to) {
     std::string joint = kJoint;
@@ -145,18 +158,7 @@ TEST(DhReader, BadTablesAreRefusedAndTheMessageSaysWhy) {
       {table(kJoint, "tool: {quaternion: [1, 2, 3]}\n"), {"tool", "'quaternion'", "xyz"}},
       {table(kJoint, "base: 3\n"), {"base", "'3'", "map"}},
   };
-  for (const BadTable& bad : cases) {
-    try {
-      readDhYaml(bad.yaml);
-      ADD_FAILURE() << "was read:\n" << bad.yaml;
-    } catch (const ModelError& error) {
-      for (const std::string& part : bad.said) {
-        EXPECT_NE(std::string(error.what()).find(part), std::string::npos)
-            << "no \"" << part << "\" in: " << error.what() << "\n"
-            << bad.yaml;
-      }
-    }
-  }
+  for (const BadTable& bad : cases) expectRefused(bad);
 }
 
 TEST(DhReader, TooManyJointsAreRefused) {
