@@ -30,9 +30,7 @@ GeneratorSinks publishers(ros::NodeHandle& node) {
           publisher<geometry_msgs::TwistStamped>(node, kTwistStream)};
 }
 
-void generate() {
-  ros::NodeHandle node;
-  ros::NodeHandle private_node("~");
+void generate(ros::NodeHandle& node, ros::NodeHandle& private_node) {
   XmlRpc::XmlRpcValue values;
   private_node.getParam("", values);
   const TrajectoryParams params = readTrajectoryParams(values);
@@ -60,8 +58,10 @@ std::string inOneLine(std::string text) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, kTrajectoryGeneratorNode);
+  ros::NodeHandle node;  // The console is silent once the last handle is gone.
+  ros::NodeHandle private_node("~");
   try {
-    generate();
+    generate(node, private_node);
     return 0;
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM("the robot can not be moved: " << inOneLine(error.what()));

@@ -1,0 +1,201 @@
+#include "screwline/ros/trajectory_generator.h"
+
+#include <cmath>
+
+#include "screwline/kinematics/forward.h"
+#include "screwline/ros/conversions.h"
+#include "screwline/ros/trajectory_conversions.h"
+#include "unit/ros_arm.h"
+#include "unit/ros_trajectory_support.h"
+
+namespace screwline {
+namespace ros_bridge {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+WaypointMsg at(const std::vector<double>& position) {
+  WaypointMsg waypoint;
+  waypoint.position = position;
+  return waypoint;
+}
+
+PlanTrajectory::Request question(const std::string& profile, double duration = 0.0) {
+  PlanTrajectory::Request request;
+  request.profile = profile;
+  request.waypoints = {at({0.0, 0.0, 0.0}), at({0.5, -0.4, 0.3})};
+  request.duration = duration;
+  return request;
+}
+
+/// The generator without a master: what it says is kept, its clock is turned by hand.
+struct Bench {
+  FakeClock clock;
+  std::vector<trajectory_msgs::JointTrajectory> trajectories;
+  std::vector<TrajectoryMetricsMsg> metrics;
+  std::vector<sensor_msgs::JointState> states;
+  std::vector<TimeScalingMsg> scalings;
+  std::vector<geometry_msgs::PoseStamped> poses;
+  std::vector<geometry_msgs::TwistStamped> twists;
+  TrajectoryGenerator generator;
+
+  template <typename Message>
+  static std::function<void(const Message&)> into(std::vector<Message>& list) {
+    return [&list](const Message& message) { list.push_back(message); };
+  }
+
+  explicit Bench(const TrajectoryParams& params = {})
+      : generator({arm(), Task::parse({"x", "y", "rz"}), {}}, params,
+                  [](const std::string& frame) -> std::optional<Pose> {
+                    if (frame != "cell") return std::nullopt;
+                    return Pose{Matrix3::Identity(), Vector3(0.1, 0.2, 0.0)};
+                  },
+                  clock.clock(),
+                  {into(trajectories), into(metrics), into(states), into(scalings), into(poses), into(twists)}) {}
+
+  PlanTrajectory::Response plan(const PlanTrajectory::Request& request) {
+    PlanTrajectory::Response response;
+    EXPECT_TRUE(serve("plan", response, [&] { return generator.plan(request, response); }));
+    return response;
+  }
+  Outcome execute(const ExecuteTrajectory::Request& request = {}) {
+    ExecuteTrajectory::Response response;
+    return generator.execute(request, response);
+  }
+  void run(int steps) {
+    for (int i = 0; i < steps; ++i) ASSERT_TRUE(generator.executor().step());
+  }
+};
+
+TEST(TrajectoryGenerator, StreamsWhatItPlanned) {
+  Bench bench;
+  bench.run(3);
+  const auto planned = bench.plan(question("polynomial_345", 1.0));
+  ASSERT_TRUE(planned.success) << planned.message;
+  EXPECT_EQ(bench.execute().message, "");
+  ASSERT_EQ(bench.trajectories.size(), 1U);
+  ASSERT_EQ(bench.metrics.size(), 1U);
+  bench.run(110);
+  const ros::Time first = bench.trajectories[0].header.stamp;
+  std::size_t point = 0;
+  for (std::size_t i = 0; i < bench.states.size(); ++i) {
+    EXPECT_EQ(bench.states[i].header.stamp, bench.poses[i].header.stamp);
+    EXPECT_EQ(bench.states[i].header.stamp, bench.twists[i].header.stamp);
+    EXPECT_EQ(bench.states[i].header.stamp, bench.scalings[i].header.stamp);
+    if (bench.states[i].header.stamp < first || point >= planned.trajectory.points.size()) continue;
+    for (std::size_t j = 0; j < 3; ++j) {
+      EXPECT_NEAR(bench.states[i].position[j], planned.trajectory.points[point].positions[j], 1e-12);
+      EXPECT_NEAR(bench.states[i].velocity[j], planned.trajectory.points[point].velocities[j], 1e-9);
+    }
+    ASSERT_EQ(bench.scalings[i].s.size(), 1U);
+    EXPECT_NEAR(bench.scalings[i].s[0], planned.time_scaling.s[point], 1e-12);
+    ++point;
+  }
+  EXPECT_EQ(point, 101U);
+}
+
+TEST(TrajectoryGenerator, InfinityIsAllowedWhereItIsDocumented) {
+  Bench bench;
+  for (const std::string profile : {"rectangular", "cubic"}) {
+    const auto answer = bench.plan(question(profile));
+    ASSERT_TRUE(answer.success) << answer.message;
+    EXPECT_TRUE(std::isinf(answer.metrics.peak_jerk[0]));
+    EXPECT_EQ(std::isinf(answer.metrics.peak_acceleration[0]), profile == "rectangular");
+  }
+  PlanTrajectory::Response wrong;
+  wrong.metrics.peak_velocity = {HUGE_VAL};
+  EXPECT_FALSE(isSound(wrong));
+  wrong.metrics.peak_velocity = {1.0};
+  wrong.metrics.peak_jerk = {std::nan("")};
+  EXPECT_FALSE(isSound(wrong));
+}
+
+TEST(TrajectoryGenerator, PosesInFramesOfTheChainAndOfTf) {
+  Bench bench;
+  const auto chain = arm();
+  const VectorX q = (VectorX(3) << 0.4, 0.6, -0.3).finished();
+  Pose target = forwardKinematics(*chain, q);
+  for (const std::string frame : {"", "base", "table", "cell"}) {
+    Pose X_BF;
+    if (frame == "cell") X_BF.p = {0.1, 0.2, 0.0};
+    if (frame == "table") X_BF = chain->findLink("table")->home;
+    PlanTrajectory::Request request = question("cubic");
+    request.waypoints[1] = WaypointMsg();
+    request.waypoints[1].pose.header.frame_id = frame;
+    request.waypoints[1].pose.pose = toPose(X_BF.inverse() * target);
+    const auto answer = bench.plan(request);
+    ASSERT_TRUE(answer.success) << frame << ": " << answer.message;
+    const auto& end = answer.trajectory.points.back().positions;
+    const Pose met = forwardKinematics(*chain, Eigen::Map<const VectorX>(end.data(), 3));
+    EXPECT_LT((met.p - target.p).head<2>().norm(), 1e-8) << frame;
+  }
+  PlanTrajectory::Request request = question("cubic");
+  request.waypoints[1] = WaypointMsg();
+  request.waypoints[1].pose.header.frame_id = "nowhere";
+  request.waypoints[1].pose.pose = toPose(target);
+  EXPECT_EQ(bench.plan(request).error_code, static_cast<int>(ErrorCode::kFrameTransformFailure));
+}
+
+TEST(TrajectoryGenerator, ARefusedExecutionLeavesTheMotion) {
+  Bench bench;
+  bench.run(3);
+  ASSERT_TRUE(bench.plan(question("polynomial_345", 1.0)).success);
+  bench.execute();
+  bench.run(40);
+  ExecuteTrajectory::Request bad;
+  bad.trajectory.points.resize(1);
+  bad.trajectory.points[0].positions = {9.0, 0.0, 0.0};
+  expectRefused([&] { bench.execute(bad); }, ErrorCode::kLimitsInfeasible, "'a'");
+  bench.run(100);
+  EXPECT_NEAR(bench.states.back().position[0], 0.5, 1e-12);
+  EXPECT_EQ(bench.trajectories.size(), 1U);
+}
+
+TEST(TrajectoryGenerator, StopsAndSaysSo) {
+  Bench bench;
+  bench.run(3);
+  EXPECT_EQ(bench.generator.stop().message, "the robot is at rest");
+  ASSERT_TRUE(bench.plan(question("polynomial_345", 2.0)).success);
+  bench.execute();
+  bench.run(100);
+  EXPECT_NE(bench.generator.stop().message.find("at rest in"), std::string::npos);
+  bench.run(200);
+  EXPECT_EQ(bench.states.back().velocity, std::vector<double>(3, 0.0));
+  EXPECT_LT(bench.states.back().position[0], 0.45);
+}
+
+TEST(TrajectoryGenerator, PointsWithALeadFollowIt) {
+  const auto chain = arm();
+  const VectorX zero = VectorX::Zero(3);
+  const VectorX far = VectorX::Constant(3, 0.5);
+  const JointTrajectory main = JointTrajectory::scaled(far, -far, TimeScaling::cubic(), 1.0);
+  const Motion motion = startFrom({zero, zero, zero}, main, limitsOf(*chain));
+  const auto all = withLead(*chain, motion, sampled(*chain, main, 0.1).message);
+  for (std::size_t i = 1; i < all.points.size(); ++i) {
+    EXPECT_GT(all.points[i].time_from_start, all.points[i - 1].time_from_start);
+  }
+  EXPECT_NEAR(all.points.back().time_from_start.toSec(), motion.duration(), 1e-8);
+  EXPECT_EQ(all.points.front().positions, std::vector<double>(3, 0.0));
+}
+
+TEST(TrajectoryParams, EveryKeyAndItsBounds) {
+  EXPECT_EQ(readTrajectoryParams(XmlRpcValue()).rate, 100.0);
+  XmlRpcValue values;
+  values["rate"] = 250;
+  values["initial_position"][0] = 1;
+  values["initial_position"][1] = 0.5;
+  const TrajectoryParams params = readTrajectoryParams(values);
+  EXPECT_EQ(params.rate, 250.0);
+  EXPECT_EQ(params.initial_position, (std::vector<double>{1.0, 0.5}));
+  values["rate"] = 1000.5;
+  expectModelError([&] { readTrajectoryParams(values); }, "~rate");
+  values["rate"] = 0.5;
+  expectModelError([&] { readTrajectoryParams(values); }, "~rate");
+  XmlRpcValue unknown;
+  unknown["speed"] = 1;
+  expectModelError([&] { readTrajectoryParams(unknown); }, "~speed");
+}
+
+}  // namespace
+}  // namespace ros_bridge
+}  // namespace screwline
