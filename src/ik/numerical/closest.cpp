@@ -6,7 +6,7 @@
 namespace screwline {
 namespace {
 
-constexpr std::size_t kMaxFinished = 12;  ///< Estimates that are followed to their minimum.
+constexpr std::size_t kMaxFinished = 40;  ///< Estimates that are followed to their minimum.
 constexpr double kSameMinimum = 1e-2;     ///< Scaled; estimates nearer to a finished one end where it did.
 constexpr double kTie = 1e-11;            ///< Relative; between minima that are equal the nearest to the start counts.
 

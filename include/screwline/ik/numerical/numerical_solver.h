@@ -72,7 +72,9 @@ SearchResult search(const SerialChain& chain, const Task& task, const Pose& targ
 
 /// The configuration nearest to the target in the weighted error: descents from the given starts and from restarts, of
 /// which the most promising are followed to their minimum. Of minima that are equal within 1e-11, the one nearest to
-/// the first start. A local minimum for certain (unless time runs out), the global one for all practical purposes.
+/// the first start. A local minimum for certain (unless time runs out or max_iterations are used up), the global one
+/// with high probability only: for whole poses out of reach of five arms of 6 and 7 joints, 256 restarts (3 to 5 ms)
+/// missed nothing that 2048 found in 200 poses each, 64 restarts (2 to 3 ms) 1 %, 8 restarts up to a third.
 DescentResult closestReachable(const SerialChain& chain, const Task& task, const Pose& target,
                                const std::vector<VectorX>& starts, const SearchOptions& options);
 
