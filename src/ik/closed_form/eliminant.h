@@ -64,15 +64,15 @@ struct CarriedPoint {
   Vector3 f = Vector3::Zero();
 };
 
-inline Roots solveForm(const Form& f, bool slide, double scale) {
+inline RealRoots solveForm(const Form& f, bool slide, double scale) {
   if (!slide) return solveSinusoid(f.k, f.a, f.b, scale);
   const double c[3] = {f.k, f.a, f.b};
   return solvePolynomial(c, 2, scale);
 }
 
 /// f^2 + g^2 - rest - constant = 0
-inline Roots solveSquares(const SquareForm& f2, const SquareForm& g2, const SquareForm& rest, double scale,
-                          bool slide) {
+inline RealRoots solveSquares(const SquareForm& f2, const SquareForm& g2, const SquareForm& rest, double scale,
+                              bool slide) {
   SquareForm sum;
   for (std::size_t i = 0; i < 5; ++i) sum[i] = f2[i] + g2[i] - rest[i];
   if (slide) return solvePolynomial(sum.data(), 4, scale);

@@ -33,15 +33,15 @@ struct TurnGoal {
   double scale = 0.0;  ///< [m^2] of the terms of the eliminant.
 };
 
-/// Roots of an eliminant; where every value is one, the preferred value alone, marked free.
+/// RealRoots of an eliminant; where every value is one, the preferred value alone, marked free.
 template <typename Use>
-void forEachRoot(const Roots& roots, double preferred, Use&& use) {
+void forEachRoot(const RealRoots& roots, double preferred, Use&& use) {
   if (roots.always) {
-    use(Root{preferred, 0}, 0, true);
+    use(RealRoot{preferred, 0}, 0, true);
     return;
   }
   std::array<int, 3> rank{};
-  for (const Root& root : roots) use(root, rank[static_cast<std::size_t>(root.slope + 1)]++, false);
+  for (const RealRoot& root : roots) use(root, rank[static_cast<std::size_t>(root.slope + 1)]++, false);
 }
 
 /// Turns axis 1 so that it carries `second` to the goal; anything does where the goal is on the axis.
@@ -127,14 +127,14 @@ void addTurns(const PositionGeometry& g, const Vector3& carried, const TurnGoal&
 /// A slide carried by two axes that meet: |center + q e - meeting point| = reach, as (q - foot)^2 = height^2 + radius^2
 /// - nearest^2. The difference of the last two is taken as a product, and is zero where rounding cannot tell: a slide
 /// drawn in to nothing is exact.
-Roots slideRoots(const PositionGeometry& g, const CarriedPoint& carried, const TurnGoal& goal) {
+RealRoots slideRoots(const PositionGeometry& g, const CarriedPoint& carried, const TurnGoal& goal) {
   const Vector3 r = carried.center - g.axes[1].point;
   const double foot = -r.dot(carried.e);
   const double nearest = (r + foot * carried.e).norm();
   const double gap = goal.radius - nearest;
   const double radial = std::abs(gap) <= kDoubleRootTolerance * g.length ? 0.0 : gap * (goal.radius + nearest);
   const double square = goal.height * goal.height + radial;
-  Roots roots;
+  RealRoots roots;
   if (square < -kDoubleRootTolerance * goal.scale) return roots;
   const double root = std::sqrt(std::max(square, 0.0));
   if (root <= kOnAxis * g.length) {
@@ -154,7 +154,7 @@ void solveTurns(const PositionGeometry& g, const Vector3& start, const Vector3& 
   const Form along = carried.along(g.axes[1].direction, g.axes[1].point);
   const Form square = carried.squareFrom(g.axes[1].point);
   const double reach = goal.height * goal.height + goal.radius * goal.radius;
-  Roots roots;
+  RealRoots roots;
   if (g.kind == PositionKind::kMeetingAxes) {
     roots = carried.slide ? slideRoots(g, carried, goal) : solveForm(square + -reach, false, goal.scale);
   } else if (g.kind == PositionKind::kParallelAxes) {
@@ -169,7 +169,7 @@ void solveTurns(const PositionGeometry& g, const Vector3& start, const Vector3& 
     rest[2] += square.b;
     roots = solveSquares(squared(x, carried.slide), squared(y, carried.slide), rest, goal.scale, carried.slide);
   }
-  forEachRoot(roots, preferred[2], [&](const Root& root, int rank, bool free) {
+  forEachRoot(roots, preferred[2], [&](const RealRoot& root, int rank, bool free) {
     PositionSolution solution;
     solution.q[2] = root.value;
     solution.free[2] = free;
@@ -191,9 +191,9 @@ void solveTurnAndSlide(const PositionGeometry& g, const Vector3& start, const Ve
   const Form fx = carried.along(x, origin) + goal.height * g.x1.dot(slant);
   const Form fy = carried.along(y, origin) + goal.height * g.y1.dot(slant);
   const SquareForm radius = {goal.radius * goal.radius, 0.0, 0.0, 0.0, 0.0};
-  const Roots roots =
+  const RealRoots roots =
       solveSquares(squared(fx, carried.slide), squared(fy, carried.slide), radius, goal.scale, carried.slide);
-  forEachRoot(roots, preferred[2], [&](const Root& root, int rank, bool free) {
+  forEachRoot(roots, preferred[2], [&](const RealRoot& root, int rank, bool free) {
     PositionSolution solution;
     const Vector3 point = carried.at(root.value);
     solution.q[2] = root.value;
@@ -214,9 +214,9 @@ void solveSlideAcross(const PositionGeometry& g, const Vector3& start, const Vec
   const Vector3& origin = g.axes[0].point;
   const Vector3& slide = g.axes[1].direction;
   const Vector3 across = g.axes[0].direction.cross(slide);
-  const Roots roots =
+  const RealRoots roots =
       solveForm(carried.along(g.axes[0].direction, origin) + -goal.height, carried.slide, std::sqrt(goal.scale));
-  forEachRoot(roots, preferred[2], [&](const Root& root, int rank, bool free) {
+  forEachRoot(roots, preferred[2], [&](const RealRoot& root, int rank, bool free) {
     const Vector3 r = carried.at(root.value) - origin;
     const double aside = std::abs(r.dot(across));
     const double reach =
@@ -255,8 +255,8 @@ void solveSlideTurnSlide(const PositionGeometry& g, const Vector3& start, const 
   const double c[3] = {from_base.squaredNorm() - to_base.squaredNorm(),
                        2.0 * (from_base.dot(from_rate) - to_base.dot(to_rate)),
                        from_rate.squaredNorm() - to_rate.squaredNorm()};
-  const Roots roots = solvePolynomial(c, 2, g.length * g.length + to.squaredNorm());
-  forEachRoot(roots, preferred[solve_first ? 0 : 2], [&](const Root& root, int rank, bool free) {
+  const RealRoots roots = solvePolynomial(c, 2, g.length * g.length + to.squaredNorm());
+  forEachRoot(roots, preferred[solve_first ? 0 : 2], [&](const RealRoot& root, int rank, bool free) {
     PositionSolution solution;
     const double other = solve_first ? (rise - k1 * root.value) / k3 : (rise - k3 * root.value) / k1;
     solution.q[0] = solve_first ? root.value : other;

@@ -27,8 +27,8 @@ double magnitude(const double* c, int degree, double x) {
   return value;
 }
 
-Roots solveQuadratic(const double* c) {
-  Roots roots;
+RealRoots solveQuadratic(const double* c) {
+  RealRoots roots;
   const double half = 0.5 * c[1];
   const double root = squareRootOrNone(half * half - c[2] * c[0], half * half + std::abs(c[2] * c[0]));
   if (root < 0.0) return roots;
@@ -68,12 +68,12 @@ double bracketedRoot(const double* c, int degree, double low, double high, int s
   return x;
 }
 
-/// Roots of a polynomial of degree 3 or 4 from its critical points.
-Roots solveBetween(const double* c, int degree, const Roots& critical) {
+/// RealRoots of a polynomial of degree 3 or 4 from its critical points.
+RealRoots solveBetween(const double* c, int degree, const RealRoots& critical) {
   double bound = 0.0;
   for (int i = 0; i < degree; ++i) bound = std::max(bound, std::abs(c[i] / c[degree]));
   bound += 1.0;  // Cauchy: all roots lie within.
-  Roots roots;
+  RealRoots roots;
   double low = -bound;
   int sign_low = signOf(c[degree]) * (degree % 2 == 0 ? 1 : -1);
   for (int i = 0; i <= critical.count; ++i) {
@@ -99,8 +99,8 @@ double squareRootOrNone(double radicand, double scale) {
   return radicand > 0.0 ? std::sqrt(radicand) : -1.0;
 }
 
-Roots solveSinusoid(double k, double a, double b, double scale) {
-  Roots roots;
+RealRoots solveSinusoid(double k, double a, double b, double scale) {
+  RealRoots roots;
   const double amplitude = std::hypot(a, b);
   if (amplitude <= kNegligible * scale) {
     roots.always = std::abs(k) <= kNegligible * scale;
@@ -119,9 +119,9 @@ Roots solveSinusoid(double k, double a, double b, double scale) {
   return roots;
 }
 
-Roots solvePolynomial(const double* c, int degree, double scale) {
+RealRoots solvePolynomial(const double* c, int degree, double scale) {
   while (degree > 0 && std::abs(c[degree]) <= kNegligible * scale) --degree;
-  Roots roots;
+  RealRoots roots;
   if (degree == 0) {
     roots.always = std::abs(c[0]) <= kNegligible * scale;
     return roots;
@@ -136,7 +136,7 @@ Roots solvePolynomial(const double* c, int degree, double scale) {
   return solveBetween(c, degree, solvePolynomial(derivative.data(), degree - 1, 0.0));
 }
 
-Roots solveSecondHarmonic(double k, double a, double b, double c, double d, double scale) {
+RealRoots solveSecondHarmonic(double k, double a, double b, double c, double d, double scale) {
   if (std::hypot(c, d) <= kNegligible * scale) return solveSinusoid(k, a, b, scale);
   const auto value = [&](double x) {
     return k + a * std::cos(x) + b * std::sin(x) + c * std::cos(2.0 * x) + d * std::sin(2.0 * x);
@@ -157,9 +157,9 @@ Roots solveSecondHarmonic(double k, double a, double b, double c, double d, doub
   const double dy = d * c2 - c * s2;
   // (1 + t^2)^2 times the function, with t = tan(y/2).
   const double quartic[5] = {k + ay + cy, 2.0 * by + 4.0 * dy, 2.0 * k - 6.0 * cy, 2.0 * by - 4.0 * dy, k - ay + cy};
-  Roots roots = solvePolynomial(quartic, 4, 0.0);
+  RealRoots roots = solvePolynomial(quartic, 4, 0.0);
   for (int i = 0; i < roots.count; ++i) {
-    Root& root = roots.roots[static_cast<std::size_t>(i)];
+    RealRoot& root = roots.roots[static_cast<std::size_t>(i)];
     root.value = 2.0 * std::atan(root.value) + shift;
   }
   return roots;

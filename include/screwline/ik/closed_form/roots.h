@@ -7,20 +7,20 @@ namespace screwline {
 
 /// A real root and the sign of the function's derivative there: it tells roots apart along a path. 0: a double root,
 /// where two meet.
-struct Root {
+struct RealRoot {
   double value = 0.0;
   int slope = 0;
 };
 
 /// Up to four real roots, ascending where they come from a polynomial. `always`: the function is zero everywhere.
-struct Roots {
-  std::array<Root, 4> roots;
+struct RealRoots {
+  std::array<RealRoot, 4> roots;
   int count = 0;
   bool always = false;
 
   void add(double value, int slope) { roots[static_cast<std::size_t>(count++)] = {value, slope}; }
-  const Root* begin() const { return roots.data(); }
-  const Root* end() const { return roots.data() + count; }
+  const RealRoot* begin() const { return roots.data(); }
+  const RealRoot* end() const { return roots.data() + count; }
 };
 
 /// Radicands within this share of their terms count as zero: two roots that rounding cannot tell apart are one. At
@@ -33,15 +33,15 @@ double squareRootOrNone(double radicand, double scale);
 
 /// k + a cos(x) + b sin(x) = 0. Angles in (-2 pi, 2 pi), not wrapped. `scale` is the size below which coefficients are
 /// rounding.
-Roots solveSinusoid(double k, double a, double b, double scale);
+RealRoots solveSinusoid(double k, double a, double b, double scale);
 
 /// Real roots of c[0] + c[1] x + ... + c[degree] x^degree, degree <= 4, by bracketing between the roots of the
 /// derivative: no root is lost where two are close, touching roots are found once.
-Roots solvePolynomial(const double* c, int degree, double scale);
+RealRoots solvePolynomial(const double* c, int degree, double scale);
 
 /// k + a cos(x) + b sin(x) + c cos(2x) + d sin(2x) = 0; as solvePolynomial() in a half-angle tangent whose pole is put
 /// where the function is largest.
-Roots solveSecondHarmonic(double k, double a, double b, double c, double d, double scale);
+RealRoots solveSecondHarmonic(double k, double a, double b, double c, double d, double scale);
 
 }  // namespace screwline
 
