@@ -73,7 +73,8 @@ def wait_until(condition, processes, what, seconds=START_SECONDS):
         for process in processes:
             process.require_running()
         if time.monotonic() > deadline:
-            raise NotRunnable('%s did not come up within %d s' % (what, seconds))
+            said = processes[-1].last_lines() if processes else ''
+            raise NotRunnable('%s did not come up within %d s\n%s' % (what, seconds, said))
         time.sleep(0.05)
 
 
