@@ -22,7 +22,7 @@ PlanRequest requestFor(const std::string& profile, int waypoint_count) {
   request.limits.acceleration = VectorX::Constant(kJoints, 8.0);
   request.limits.jerk = VectorX::Constant(kJoints, 80.0);
   for (int i = 0; i < waypoint_count; ++i) {
-    Waypoint waypoint;
+    PathPoint waypoint;
     waypoint.position = VectorX::NullaryExpr(kJoints, [&] { return angle(random); });
     request.waypoints.push_back(waypoint);
   }

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   q << 0.3, 0.8, -0.5, 0.1;
   screwline::IkRequest request;
   request.target = screwline::forwardKinematics(arm, q);
-  for (const screwline::IkSolution& solution : ik.solve(request).solutions) {
+  for (const screwline::IkAnswer& solution : ik.solve(request).solutions) {
     std::cout << solution.branch << ": " << solution.position.transpose() << '\n';
   }
   std::cout << "manipulability " << screwline::analyzeSingularity(arm, q, task).manipulability << '\n';

@@ -12,7 +12,7 @@ namespace screwline {
 namespace golden {
 
 /// A configuration that reaches a case's pose over its ik task.
-struct IkSolution {
+struct IkAnswer {
   VectorX q;
   bool full_pose_matches = false;  ///< It also reproduces the rows that are not in the task.
 };
@@ -29,7 +29,7 @@ struct IkFamily {
 struct Ik {
   Task task;
   bool infinite = false;
-  std::vector<IkSolution> solutions;  ///< All of them; where infinite, samples of the families.
+  std::vector<IkAnswer> solutions;  ///< All of them; where infinite, samples of the families.
   std::vector<IkFamily> families;
 };
 

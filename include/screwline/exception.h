@@ -7,7 +7,7 @@
 namespace screwline {
 
 /// Numbers of the answers' error_code field (msg/ErrorCode.msg; those of MoveItErrorCodes where a meaning matches).
-enum class ErrorCode : int {
+enum class AnswerCode : int {
   kSuccess = 1,
   kFailure = 99999,
   kTimedOut = -6,
@@ -38,11 +38,11 @@ class ModelError : public Exception {
 /// error_code.
 class InputError : public Exception {
  public:
-  InputError(ErrorCode code, const std::string& message) : Exception(message), code_(code) {}
-  ErrorCode code() const { return code_; }
+  InputError(AnswerCode code, const std::string& message) : Exception(message), code_(code) {}
+  AnswerCode code() const { return code_; }
 
  private:
-  ErrorCode code_;
+  AnswerCode code_;
 };
 
 }  // namespace screwline

@@ -15,7 +15,7 @@ constexpr double kSameSolution = 1e-6;
 /// Errors, by forward kinematics, that a solution may have: m and rad.
 constexpr double kSolutionTolerance = 1e-9;
 
-/// A configuration that a solver proposes, on its way to becoming an IkSolution.
+/// A configuration that a solver proposes, on its way to becoming an IkAnswer.
 struct Candidate {
   VectorX q;
   std::string branch;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kRotationTolerance = 1e-6;  // Of R R^T from the identity.
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw InputError(ErrorCode::kInvalidGoal, message);
+  throw InputError(AnswerCode::kInvalidGoal, message);
 }
 
 std::string text(double value) {

@@ -16,14 +16,14 @@ namespace {
 
 constexpr int kClosestRestarts = 256;  // Starts for the best reachable configuration: fewer were seen to miss it.
 
-bool isNearer(const IkSolution& a, const IkSolution& b) {
+bool isNearer(const IkAnswer& a, const IkAnswer& b) {
   if (a.distance != b.distance) return a.distance < b.distance;
   return std::lexicographical_compare(a.position.data(), a.position.data() + a.position.size(), b.position.data(),
                                       b.position.data() + b.position.size());
 }
 
 /// A redundant chain's solution lies on its self-motion; told here to first order, its range is not traced.
-void describeRedundancy(const SerialChain& chain, const Task& task, IkSolution& solution) {
+void describeRedundancy(const SerialChain& chain, const Task& task, IkAnswer& solution) {
   Matrix6X J(6, chain.size());
   geometricJacobian(chain, solution.position, J);
   solution.self_motion = taskRank(task.select(J)).self_motions;
@@ -98,7 +98,7 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
 void InverseKinematics::Implementation::keep(const IkRequest& request, const std::vector<Candidate>& candidates,
                                              const SolutionBuilder& builder, IkResult& result) const {
   for (const Candidate& candidate : candidates) {
-    std::optional<IkSolution> solution = builder.build(candidate);
+    std::optional<IkAnswer> solution = builder.build(candidate);
     if (!solution) {
       // Rows that the plan does not know reject solutions rightly; its own rows never should.
       if (plan && plan->task.size() == task.size()) result.complete = false;
@@ -115,7 +115,7 @@ void InverseKinematics::Implementation::keep(const IkRequest& request, const std
       continue;
     }
     for (const VectorX& q : allTurns(chain, solution->position, request.ignore_limits, kSolutionTolerance)) {
-      IkSolution turned = *solution;
+      IkAnswer turned = *solution;
       turned.position = q;
       turned.distance = (q - builder.seed()).norm();
       result.solutions.push_back(turned);
@@ -127,10 +127,10 @@ void InverseKinematics::Implementation::keep(const IkRequest& request, const std
 /// back.
 void InverseKinematics::Implementation::admitSeed(const SolutionBuilder& builder, IkResult& result) const {
   if (result.solutions.empty() || !builder.seedSolves()) return;
-  IkSolution& nearest = *std::min_element(result.solutions.begin(), result.solutions.end(), isNearer);
+  IkAnswer& nearest = *std::min_element(result.solutions.begin(), result.solutions.end(), isNearer);
   if (nearest.distance <= 1e-12) return;
-  IkSolution seed = nearest;
-  const IkSolution measured = builder.describe(builder.seed());
+  IkAnswer seed = nearest;
+  const IkAnswer measured = builder.describe(builder.seed());
   seed.position = measured.position;
   seed.position_error = measured.position_error;
   seed.orientation_error = measured.orientation_error;

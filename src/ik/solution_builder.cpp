@@ -27,8 +27,8 @@ SolutionBuilder::SolutionBuilder(const SerialChain& chain, const Task& task, con
       request_(request),
       seed_(request.seed.size() > 0 ? request.seed : chain.clamped(VectorX::Zero(chain.size()))) {}
 
-std::optional<IkSolution> SolutionBuilder::build(const Candidate& candidate) const {
-  IkSolution solution;
+std::optional<IkAnswer> SolutionBuilder::build(const Candidate& candidate) const {
+  IkAnswer solution;
   solution.branch = candidate.branch;
   solution.position = candidate.q;
   if (!candidate.free.empty()) {
@@ -54,8 +54,8 @@ std::optional<IkSolution> SolutionBuilder::build(const Candidate& candidate) con
   return solution;
 }
 
-IkSolution SolutionBuilder::describe(const VectorX& q) const {
-  IkSolution solution;
+IkAnswer SolutionBuilder::describe(const VectorX& q) const {
+  IkAnswer solution;
   solution.position = q;
   measure(solution, false);
   solution.within_limits = chooseTurns(chain_, q, q, true, false, kLeastBand).within_limits;
@@ -67,7 +67,7 @@ bool SolutionBuilder::seedSolves() const {
   return request_.ignore_limits || (chain_.clamped(seed_) - seed_).cwiseAbs().maxCoeff() <= kLeastBand;
 }
 
-void SolutionBuilder::measure(IkSolution& solution, bool merged) const {
+void SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
   Matrix6X J(6, chain_.size());
   const Pose actual = geometricJacobian(chain_, solution.position, J);
   const TaskError error = taskError(task_, request_.target, actual);

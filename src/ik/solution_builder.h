@@ -18,16 +18,16 @@ class SolutionBuilder {
 
   /// Refines, verifies by forward kinematics, chooses turns, describes continua. Empty where the candidate is no
   /// solution to 1e-9.
-  std::optional<IkSolution> build(const Candidate& candidate) const;
+  std::optional<IkAnswer> build(const Candidate& candidate) const;
 
   /// The same numbers for a configuration that need not be a solution.
-  IkSolution describe(const VectorX& q) const;
+  IkAnswer describe(const VectorX& q) const;
 
   /// Whether the seed itself meets the pose (and the limits, where they are honoured).
   bool seedSolves() const;
 
  private:
-  void measure(IkSolution& solution, bool merged) const;
+  void measure(IkAnswer& solution, bool merged) const;
 
   const SerialChain& chain_;
   const Task& task_;

@@ -68,9 +68,9 @@ std::vector<VectorX> allTurns(const SerialChain& chain, const VectorX& chosen, b
     const double last = std::floor((limits.upper + band - chosen[i]) / kTwoPi);
     const double count = std::max(1.0, last - first + 1.0);
     if (static_cast<double>(all.size()) * count > static_cast<double>(kMaxTurns)) {
-      throw InputError(ErrorCode::kTooLarge, "all_turns asks for more than " + std::to_string(kMaxTurns) +
-                                                 " turns of one solution; narrow the limits of joint '" +
-                                                 chain.joint(i).name + "'");
+      throw InputError(AnswerCode::kTooLarge, "all_turns asks for more than " + std::to_string(kMaxTurns) +
+                                                  " turns of one solution; narrow the limits of joint '" +
+                                                  chain.joint(i).name + "'");
     }
     const std::vector<VectorX> before = all;
     for (double turn = first; turn <= last; ++turn) {

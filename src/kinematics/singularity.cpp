@@ -19,9 +19,9 @@ double valueOf(const SingularityFactor& factor, const ConstVectorRef& q, const T
 }
 
 /// Conditions at q. Whether any is active is the rank's decision; which one, the factors'.
-std::vector<SingularityCondition> conditionsAt(const std::vector<SingularityFactor>& factors, const ConstVectorRef& q,
-                                               const TaskDeterminant& determinant, bool singular) {
-  std::vector<SingularityCondition> conditions;
+std::vector<SingularCondition> conditionsAt(const std::vector<SingularityFactor>& factors, const ConstVectorRef& q,
+                                            const TaskDeterminant& determinant, bool singular) {
+  std::vector<SingularCondition> conditions;
   std::size_t smallest = 0;
   double smallest_share = std::numeric_limits<double>::infinity();
   for (const SingularityFactor& factor : factors) {

@@ -17,8 +17,8 @@ Pose frameOn(const Axis& axis, const Vector3& x) {
   return X;
 }
 
-/// Unit vector perpendicular to both axes; any perpendicular where they are parallel. The cross product of two almost parallel axes is
-/// mostly rounding, even along them: taking off that part keeps the frames orthonormal.
+/// Unit vector perpendicular to both axes; any perpendicular where they are parallel. The cross product of two almost
+/// parallel axes is mostly rounding, even along them: taking off that part keeps the frames orthonormal.
 Vector3 commonNormal(const Vector3& first, const Vector3& second) {
   const Vector3 normal = first.cross(second);
   const double length = normal.norm();

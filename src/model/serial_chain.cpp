@@ -173,15 +173,15 @@ SerialChain SerialChain::withTip(const Link& link) const {
 
 void requireConfiguration(const SerialChain& chain, const ConstVectorRef& q, const std::string& field) {
   if (q.size() != chain.size()) {
-    throw InputError(ErrorCode::kInvalidRobotState, field + " has " + std::to_string(q.size()) + " values, chain '" +
-                                                        chain.name() + "' has " + std::to_string(chain.size()) +
-                                                        " joints");
+    throw InputError(AnswerCode::kInvalidRobotState, field + " has " + std::to_string(q.size()) + " values, chain '" +
+                                                         chain.name() + "' has " + std::to_string(chain.size()) +
+                                                         " joints");
   }
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     if (std::isfinite(q[i]) && std::abs(q[i]) <= kMaxMagnitude) continue;
-    throw InputError(ErrorCode::kInvalidRobotState, field + " of joint '" + chain.joint(static_cast<int>(i)).name +
-                                                        "' is " + text(q[i]) + ", it must be finite and at most " +
-                                                        text(kMaxMagnitude) + " in magnitude");
+    throw InputError(AnswerCode::kInvalidRobotState, field + " of joint '" + chain.joint(static_cast<int>(i)).name +
+                                                         "' is " + text(q[i]) + ", it must be finite and at most " +
+                                                         text(kMaxMagnitude) + " in magnitude");
   }
 }
 

@@ -22,17 +22,17 @@ Task Task::fromRows(const std::vector<int>& rows) {
 }
 
 Task Task::parse(const std::vector<std::string>& names) {
-  if (names.empty()) throw InputError(ErrorCode::kInvalidGoal, "task has no row; known rows are x, y, z, rx, ry, rz");
+  if (names.empty()) throw InputError(AnswerCode::kInvalidGoal, "task has no row; known rows are x, y, z, rx, ry, rz");
   std::vector<int> rows;
   for (const std::string& name : names) {
     const auto found = std::find(kRowNames.begin(), kRowNames.end(), name);
     if (found == kRowNames.end()) {
-      throw InputError(ErrorCode::kInvalidGoal,
+      throw InputError(AnswerCode::kInvalidGoal,
                        "task row '" + name + "' is unknown; known rows are x, y, z, rx, ry, rz");
     }
     const int row = static_cast<int>(found - kRowNames.begin());
     if (std::find(rows.begin(), rows.end(), row) != rows.end()) {
-      throw InputError(ErrorCode::kInvalidGoal, "task row '" + name + "' is given twice");
+      throw InputError(AnswerCode::kInvalidGoal, "task row '" + name + "' is given twice");
     }
     rows.push_back(row);
   }

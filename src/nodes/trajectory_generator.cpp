@@ -23,9 +23,9 @@ std::function<void(const Message&)> publisher(ros::NodeHandle& node, const std::
 
 GeneratorSinks publishers(ros::NodeHandle& node) {
   return {publisher<trajectory_msgs::JointTrajectory>(node, kTrajectoryStream, true),
-          publisher<screwline::TrajectoryMetricsMsg>(node, kMetricsStream, true),
+          publisher<screwline::TrajectoryMetrics>(node, kMetricsStream, true),
           publisher<sensor_msgs::JointState>(node, kStateStream),
-          publisher<screwline::TimeScalingMsg>(node, kScalingStream),
+          publisher<screwline::TimeScaling>(node, kScalingStream),
           publisher<geometry_msgs::PoseStamped>(node, kPoseStream),
           publisher<geometry_msgs::TwistStamped>(node, kTwistStream)};
 }

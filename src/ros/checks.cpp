@@ -31,7 +31,7 @@ std::string quoted(const std::string& name) {
   return "'" + shown + (length < name.size() ? "...'" : "'");
 }
 
-void requireFinite(double value, const std::string& field, ErrorCode code) {
+void requireFinite(double value, const std::string& field, AnswerCode code) {
   if (std::abs(value) <= kMaxMagnitude) return;
   throw InputError(
       code, field + " is " + numberText(value) + ", it must be finite and within +-" + numberText(kMaxMagnitude));
@@ -39,8 +39,8 @@ void requireFinite(double value, const std::string& field, ErrorCode code) {
 
 void requireCount(std::size_t count, std::size_t bound, const std::string& field) {
   if (count <= bound) return;
-  throw InputError(ErrorCode::kTooLarge, field + " has " + std::to_string(count) + " entries, at most " +
-                                             std::to_string(bound) + " are served");
+  throw InputError(AnswerCode::kTooLarge, field + " has " + std::to_string(count) + " entries, at most " +
+                                              std::to_string(bound) + " are served");
 }
 
 }  // namespace ros_bridge

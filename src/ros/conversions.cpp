@@ -52,8 +52,8 @@ Matrix3 fromQuaternion(const geometry_msgs::Quaternion& quaternion, const std::s
   const Quaternion q(quaternion.w, quaternion.x, quaternion.y, quaternion.z);
   const double norm = q.norm();
   if (std::abs(norm - 1.0) > kQuaternionTolerance) {
-    throw InputError(ErrorCode::kInvalidGoal, field + " has norm " + numberText(norm) + ", it must be 1 within " +
-                                                  numberText(kQuaternionTolerance));
+    throw InputError(AnswerCode::kInvalidGoal, field + " has norm " + numberText(norm) + ", it must be 1 within " +
+                                                   numberText(kQuaternionTolerance));
   }
   return q.normalized().toRotationMatrix();
 }

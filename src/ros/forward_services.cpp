@@ -20,8 +20,8 @@ struct JacobianView {
 
 std::size_t methodIndex(unsigned method) {
   if (method < kJacobianMethodCount) return method;
-  throw InputError(ErrorCode::kInvalidGoal, "method is " + std::to_string(method) + ", it must be 0 to " +
-                                                std::to_string(kJacobianMethodCount - 1));
+  throw InputError(AnswerCode::kInvalidGoal, "method is " + std::to_string(method) + ", it must be 0 to " +
+                                                 std::to_string(kJacobianMethodCount - 1));
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ void FrameBroadcaster::onTrajectory(const trajectory_msgs::JointTrajectory& traj
 void FrameBroadcaster::onTarget(const geometry_msgs::PoseStamped& target) {
   const std::string& given = target.header.frame_id;
   if (given == frames_.targetName() || (!given.empty() && given.front() == '/')) {
-    throw InputError(ErrorCode::kFrameTransformFailure,
+    throw InputError(AnswerCode::kFrameTransformFailure,
                      "target.header.frame_id is " + quoted(given) + ", it must be another frame, and not start with /");
   }
   target_ = ChildFrame{given.empty() ? robot_.chain->baseLink() : given, frames_.targetName(),

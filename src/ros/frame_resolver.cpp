@@ -35,7 +35,7 @@ bool FrameResolver::isBase(const std::string& frame) const {
 
 Pose FrameResolver::lookUp(const std::string& frame, const std::string& field, const std::string& refusal) const {
   const std::optional<Pose> X_BF = lookup_ ? lookup_(frame) : std::nullopt;
-  if (!X_BF) throw InputError(ErrorCode::kFrameTransformFailure, field + " " + quoted(frame) + " " + refusal);
+  if (!X_BF) throw InputError(AnswerCode::kFrameTransformFailure, field + " " + quoted(frame) + " " + refusal);
   return *X_BF;
 }
 

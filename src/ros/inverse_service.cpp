@@ -10,8 +10,8 @@ namespace screwline {
 namespace ros_bridge {
 namespace {
 
-IkSolutionMsg toMessage(const SerialChain& chain, const IkSolution& solution) {
-  IkSolutionMsg message;
+IkSolution toMessage(const SerialChain& chain, const IkAnswer& solution) {
+  IkSolution message;
   message.position = arrayOf(solution.position);
   message.branch = solution.branch;
   message.position_error = solution.position_error;
@@ -46,19 +46,19 @@ Pose targetInFrame(const geometry_msgs::Pose& pose, const Task& task, bool is_ba
 double nonNegative(double value, const std::string& field) {
   requireFinite(value, field);
   if (value < 0.0)
-    throw InputError(ErrorCode::kInvalidGoal, field + " is " + numberText(value) + ", it must not be below 0");
+    throw InputError(AnswerCode::kInvalidGoal, field + " is " + numberText(value) + ", it must not be below 0");
   return value;
 }
 
 /// Two rotation rows fix neither an orientation nor a heading.
 void requireMeaning(const Task& task) {
   if (task.rotationCount() != 2) return;
-  throw InputError(ErrorCode::kInvalidGoal, "task has 2 of rx ry rz, it must have one of them, all three or none");
+  throw InputError(AnswerCode::kInvalidGoal, "task has 2 of rx ry rz, it must have one of them, all three or none");
 }
 
-ErrorCode codeOf(const IkResult& result) {
-  if (result.status == IkStatus::kSolved) return ErrorCode::kSuccess;
-  return result.timed_out && result.status == IkStatus::kNotFound ? ErrorCode::kTimedOut : ErrorCode::kNoIkSolution;
+AnswerCode codeOf(const IkResult& result) {
+  if (result.status == IkStatus::kSolved) return AnswerCode::kSuccess;
+  return result.timed_out && result.status == IkStatus::kNotFound ? AnswerCode::kTimedOut : AnswerCode::kNoIkSolution;
 }
 
 }  // namespace
@@ -100,15 +100,15 @@ Outcome KinematicsServer::computeIk(const ComputeIK::Request& request, ComputeIK
   const SerialChain& chain = *robot_.chain;
   const Link& tip = linkOrTip(request.link_name, "link_name");
   if (tip.axis_count != static_cast<int>(chain.axes().size())) {
-    throw InputError(ErrorCode::kInvalidLinkName, "link_name is " + quoted(tip.name) +
-                                                      ", it must be the tip or a link rigidly beyond the last joint");
+    throw InputError(AnswerCode::kInvalidLinkName, "link_name is " + quoted(tip.name) +
+                                                       ", it must be the tip or a link rigidly beyond the last joint");
   }
   const Task task = toTask(request.task, robot_.task);
   requireMeaning(task);
   const IkRequest question = ikRequest(request, task);
   const IkResult result = solverFor(tip, task)->solve(question);
   response.joint_names = chain.jointNames();
-  for (const IkSolution& solution : result.solutions) response.solutions.push_back(toMessage(chain, solution));
+  for (const IkAnswer& solution : result.solutions) response.solutions.push_back(toMessage(chain, solution));
   response.complete = result.complete;
   response.method = result.method;
   response.closest = toMessage(chain, result.solutions.empty() ? result.closest : result.solutions.front());

@@ -16,9 +16,9 @@ JointStateTracker::JointStateTracker(std::shared_ptr<const SerialChain> chain)
 bool JointStateTracker::update(const sensor_msgs::JointState& state) {
   if (state.position.empty()) return false;
   if (state.name.size() != state.position.size()) {
-    throw InputError(ErrorCode::kInvalidRobotState, "joint_states.position has " +
-                                                        std::to_string(state.position.size()) + " values, name has " +
-                                                        std::to_string(state.name.size()));
+    throw InputError(AnswerCode::kInvalidRobotState, "joint_states.position has " +
+                                                         std::to_string(state.position.size()) + " values, name has " +
+                                                         std::to_string(state.name.size()));
   }
   VectorX positions = positions_;
   std::vector<bool> known = known_;
@@ -27,7 +27,7 @@ bool JointStateTracker::update(const sensor_msgs::JointState& state) {
     const auto is_named = [&](const Joint& joint) { return joint.name == state.name[i]; };
     const auto joint = std::find_if(chain_->joints().begin(), chain_->joints().end(), is_named);
     if (joint == chain_->joints().end()) continue;
-    requireFinite(state.position[i], "joint_states.position of " + joint->name, ErrorCode::kInvalidRobotState);
+    requireFinite(state.position[i], "joint_states.position of " + joint->name, AnswerCode::kInvalidRobotState);
     const auto index = joint - chain_->joints().begin();
     positions[index] = state.position[i];
     known[static_cast<std::size_t>(index)] = true;

@@ -9,7 +9,7 @@ namespace ros_bridge {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw InputError(ErrorCode::kInvalidRobotState, message);
+  throw InputError(AnswerCode::kInvalidRobotState, message);
 }
 
 int indexOf(const SerialChain& chain, const std::string& name) {
@@ -59,7 +59,7 @@ VectorX jointValues(const SerialChain& chain, const std::vector<std::string>& na
   VectorX result(chain.size());
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t place = names.empty() ? i : order[i];
-    requireFinite(values[place], field + "[" + std::to_string(place) + "]", ErrorCode::kInvalidRobotState);
+    requireFinite(values[place], field + "[" + std::to_string(place) + "]", AnswerCode::kInvalidRobotState);
     result[static_cast<Eigen::Index>(i)] = values[place];
   }
   return result;

@@ -50,7 +50,7 @@ const Link& KinematicsServer::linkOf(const std::string& name, const std::string&
   const SerialChain& chain = *robot_.chain;
   const Link* link = chain.findLink(name);
   if (link != nullptr) return *link;
-  throw InputError(ErrorCode::kInvalidLinkName,
+  throw InputError(AnswerCode::kInvalidLinkName,
                    field + " is " + quoted(name) + ", chain " + quoted(chain.name()) + " has no such link");
 }
 

@@ -25,7 +25,7 @@ std::optional<JointTrajectory> leadTo(const MotionState& goal, const MotionState
   try {
     return bridgeTrajectory(present, goal, limits);
   } catch (const InputError& error) {
-    if (error.code() != ErrorCode::kLimitsInfeasible) throw;
+    if (error.code() != AnswerCode::kLimitsInfeasible) throw;
     return std::nullopt;
   }
 }

@@ -155,7 +155,7 @@ MotionExecutor::Started MotionExecutor::replace(const MotionMaker& make) {
     {
       const Nanoseconds now = clock_.now();
       const std::lock_guard<std::mutex> lock(mutex_);
-      if (now <= 0) throw InputError(ErrorCode::kFailure, "time does not run: nobody publishes /clock");
+      if (now <= 0) throw InputError(AnswerCode::kFailure, "time does not run: nobody publishes /clock");
       followClock(now);
       start = gridInstant(std::max(tick_, firstTickAt(now + notice)));
       present = stateAt(start);
@@ -169,7 +169,7 @@ MotionExecutor::Started MotionExecutor::replace(const MotionMaker& make) {
     next_ = next;
     return {start, next.motion};
   }
-  throw InputError(ErrorCode::kFailure, "the way from the present state was not found before it was past");
+  throw InputError(AnswerCode::kFailure, "the way from the present state was not found before it was past");
 }
 
 }  // namespace ros_bridge

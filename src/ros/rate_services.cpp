@@ -31,7 +31,7 @@ Vector6 twistOf(const geometry_msgs::Twist& twist, const Task& task, bool along_
 
 void requireDirection(unsigned direction) {
   if (direction <= 1U) return;
-  throw InputError(ErrorCode::kInvalidGoal, "direction is " + std::to_string(direction) + ", it must be 0 or 1");
+  throw InputError(AnswerCode::kInvalidGoal, "direction is " + std::to_string(direction) + ", it must be 0 or 1");
 }
 
 }  // namespace

@@ -4,12 +4,12 @@ namespace screwline {
 namespace ros_bridge {
 
 Allowed allowed(const ComputeIK::Response& response, const double* number) {
-  const auto open = [number](const IkSolutionMsg& solution) {
+  const auto open = [number](const IkSolution& solution) {
     return number == &solution.joint_error || lies(number, solution.self_motion_lower) ||
            lies(number, solution.self_motion_upper);
   };
   bool infinite = open(response.closest);
-  for (const IkSolutionMsg& solution : response.solutions) infinite = infinite || open(solution);
+  for (const IkSolution& solution : response.solutions) infinite = infinite || open(solution);
   return infinite ? Allowed::kInfinity : Allowed::kFinite;
 }
 

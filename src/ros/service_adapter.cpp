@@ -7,7 +7,7 @@ namespace ros_bridge {
 namespace detail {
 
 void logOutcome(const std::string& service, const Outcome& outcome) {
-  if (outcome.code == ErrorCode::kFailure) {
+  if (outcome.code == AnswerCode::kFailure) {
     ROS_ERROR_STREAM(service << ": " << outcome.message);
   } else {
     ROS_DEBUG_STREAM(service << ": " << static_cast<int>(outcome.code) << " " << outcome.message);

@@ -9,8 +9,8 @@ namespace screwline {
 namespace ros_bridge {
 namespace {
 
-SingularityConditionMsg toMessage(const SingularityCondition& condition) {
-  SingularityConditionMsg message;
+SingularityCondition toMessage(const SingularCondition& condition) {
+  SingularityCondition message;
   message.name = condition.name;
   message.expression = condition.expression;
   message.latex = condition.latex;
@@ -55,7 +55,7 @@ Outcome KinematicsServer::analyze(const AnalyzeSingularity::Request& request,
                  toMessage);
   response.nearest_singularity = arrayOf(analysis.nearest);
   response.distance_to_singularity = analysis.distance;
-  return {ErrorCode::kSuccess, analysis.nearest_note};
+  return {AnswerCode::kSuccess, analysis.nearest_note};
 }
 
 }  // namespace ros_bridge

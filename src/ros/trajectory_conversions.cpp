@@ -12,7 +12,7 @@ namespace screwline {
 
 ros_bridge::Allowed allowed(const PlanTrajectory::Response& response, const double* number) {
   using ros_bridge::lies;
-  const TrajectoryMetricsMsg& metrics = response.metrics;
+  const TrajectoryMetrics& metrics = response.metrics;
   const bool infinite = lies(number, metrics.peak_acceleration) || lies(number, metrics.peak_jerk) ||
                         lies(number, metrics.rms_acceleration) || lies(number, metrics.jerk_integral) ||
                         number == &metrics.energy;
@@ -130,11 +130,11 @@ trajectory_msgs::JointTrajectory withLead(const SerialChain& chain, const Motion
   return all;
 }
 
-TrajectoryMetricsMsg metricsOf(const std::shared_ptr<const SerialChain>& chain, const JointTrajectory& trajectory,
-                               const Limits& limits, const VectorX& goal) {
+TrajectoryMetrics metricsOf(const std::shared_ptr<const SerialChain>& chain, const JointTrajectory& trajectory,
+                            const Limits& limits, const VectorX& goal) {
   const JointMetrics joints = jointMetrics(trajectory, limits, goal);
   const ToolMetrics tool = toolMetrics(trajectory, toolKinematics(chain));
-  TrajectoryMetricsMsg message;
+  TrajectoryMetrics message;
   message.joint_names = chain->jointNames();
   message.peak_velocity = arrayOf(joints.peak_velocity);
   message.peak_acceleration = arrayOf(joints.peak_acceleration);

@@ -65,7 +65,7 @@ Outcome TrajectoryGenerator::executePlanned(const PlannedMotion& planned) {
       executor_.replace([&](const MotionState& present) { return startFrom(present, planned.trajectory, limits_); });
   const std::string message = announce(started, planned.message);
   sinks_.metrics(planned.metrics);
-  return {ErrorCode::kSuccess, message};
+  return {AnswerCode::kSuccess, message};
 }
 
 /// A first point after time 0 is reached in that time where that joins the present motion without a jump; else, and
@@ -85,13 +85,13 @@ Outcome TrajectoryGenerator::executeGiven(const trajectory_msgs::JointTrajectory
                             VectorX::Zero(robot_.chain->size())};
   trajectoryThrough(points, &present);  // Its checks name the points as they were given.
   const std::string why = breach(*robot_.chain, trajectoryThrough(fromZero(points)), limits_);
-  if (!why.empty()) throw InputError(ErrorCode::kLimitsInfeasible, "trajectory: " + why);
+  if (!why.empty()) throw InputError(AnswerCode::kLimitsInfeasible, "trajectory: " + why);
 
   const auto started = executor_.replace([&](const MotionState& state) { return motionThrough(points, state); });
   const JointTrajectory& main = started.motion->main();
   const std::string message = announce(started, toMessage(*robot_.chain, points, main.duration()));
   sinks_.metrics(metricsOf(robot_.chain, main, limits_, points.back().position));
-  return {ErrorCode::kSuccess, message};
+  return {AnswerCode::kSuccess, message};
 }
 
 Outcome TrajectoryGenerator::execute(const ExecuteTrajectory::Request& request, ExecuteTrajectory::Response&) {
@@ -99,7 +99,7 @@ Outcome TrajectoryGenerator::execute(const ExecuteTrajectory::Request& request, 
   if (!request.trajectory.points.empty()) return executeGiven(request.trajectory);
   const auto planned = lastPlanned();
   if (planned != nullptr) return executePlanned(*planned);
-  throw InputError(ErrorCode::kInvalidGoal, "trajectory.points has 0 entries, and nothing is planned yet");
+  throw InputError(AnswerCode::kInvalidGoal, "trajectory.points has 0 entries, and nothing is planned yet");
 }
 
 Outcome TrajectoryGenerator::stop() {
@@ -107,10 +107,10 @@ Outcome TrajectoryGenerator::stop() {
   const auto started =
       executor_.replace([&](const MotionState& present) { return Motion(stopFrom(present, limits_)); });
   const double duration = started.motion->duration();
-  if (duration == 0.0) return {ErrorCode::kSuccess, "the robot is at rest"};
+  if (duration == 0.0) return {AnswerCode::kSuccess, "the robot is at rest"};
   std::string message = "at rest in " + numberText(duration) + " s";
   if (!keepsPositions(started.motion->main(), limits_)) message += ", past a position limit: it was too near to brake";
-  return {ErrorCode::kSuccess, message};
+  return {AnswerCode::kSuccess, message};
 }
 
 }  // namespace ros_bridge

@@ -27,7 +27,7 @@ ros::ServiceServer offerTrigger(ros::NodeHandle& node, const std::string& name, 
   const boost::function<bool(Request&, Response&)> callback = [name, body](Request&, Response& response) {
     const Outcome outcome = detail::run(response, body);
     detail::logOutcome(name, outcome);
-    response.success = outcome.code == ErrorCode::kSuccess;
+    response.success = outcome.code == AnswerCode::kSuccess;
     response.message = outcome.message;
     return true;
   };
@@ -83,8 +83,8 @@ Outcome TrajectoryGenerator::plan(const PlanTrajectory::Request& request, PlanTr
 }
 
 Outcome TrajectoryGenerator::listProfiles(const ListProfiles::Request&, ListProfiles::Response& response) const {
-  for (const ProfileInfo& profile : screwline::listProfiles()) {
-    ProfileInfoMsg detail;
+  for (const ProfileSummary& profile : screwline::listProfiles()) {
+    ProfileInfo detail;
     detail.name = profile.name;
     detail.meaning = profile.meaning;
     for (const ParameterInfo& parameter : profile.parameters) {

@@ -25,8 +25,8 @@ double orOne(double scaling) {
   return scaling == 0.0 ? 1.0 : scaling;
 }
 
-TimeScalingMsg scalingOf(const JointTrajectory& trajectory, const std::vector<double>& times) {
-  TimeScalingMsg message;
+TimeScaling scalingOf(const JointTrajectory& trajectory, const std::vector<double>& times) {
+  TimeScaling message;
   if (trajectory.scaling() == nullptr) return message;
   for (const double time : times) {
     const double tau = trajectory.duration() > 0.0 ? std::min(1.0, time / trajectory.duration()) : 1.0;
@@ -115,7 +115,7 @@ Outcome TrajectoryPlanner::plan(const PlanTrajectory::Request& request, const Ve
                                      orOne(question.acceleration_scaling), orOne(question.jerk_scaling));
   response.metrics = metricsOf(robot_.chain, result.trajectory, limits, goalOf(question, result.trajectory));
   planned = {std::move(result.trajectory), response.trajectory, response.metrics};
-  return {ErrorCode::kSuccess, joined(notes)};
+  return {AnswerCode::kSuccess, joined(notes)};
 }
 
 }  // namespace ros_bridge

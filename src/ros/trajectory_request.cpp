@@ -14,7 +14,7 @@ constexpr std::size_t kMostWaypoints = 100000;
 constexpr std::size_t kMostParameters = 1000;
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw InputError(ErrorCode::kInvalidGoal, message);
+  throw InputError(AnswerCode::kInvalidGoal, message);
 }
 
 std::string waypointField(std::size_t i) {
@@ -97,7 +97,7 @@ IkResult TrajectoryPlanner::ask(const IkRequest& question, const std::string& fi
   }
 }
 
-VectorX TrajectoryPlanner::solve(const WaypointMsg& waypoint, const std::string& field, PoseSeed& seed,
+VectorX TrajectoryPlanner::solve(const Waypoint& waypoint, const std::string& field, PoseSeed& seed,
                                  std::vector<std::string>& notes) const {
   const std::string& frame = waypoint.pose.header.frame_id;
   const Pose in_frame = targetInFrame(waypoint.pose.pose, robot_.task, frames_.isBase(frame), field + ".pose.pose");
@@ -118,7 +118,7 @@ VectorX TrajectoryPlanner::solve(const WaypointMsg& waypoint, const std::string&
   }
   if (result.solutions.empty()) {
     const bool late = result.timed_out && result.status == IkStatus::kNotFound;
-    throw InputError(late ? ErrorCode::kTimedOut : ErrorCode::kNoIkSolution,
+    throw InputError(late ? AnswerCode::kTimedOut : AnswerCode::kNoIkSolution,
                      field + ".pose: " + result.message + " (distance to what is reachable " +
                          numberText(result.distance_to_reachable) + " m)");
   }
@@ -143,9 +143,9 @@ PlanRequest TrajectoryPlanner::toPlanRequest(const PlanTrajectory::Request& requ
   }
   PoseSeed seed{present, ""};
   for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
-    const WaypointMsg& given = request.waypoints[i];
+    const Waypoint& given = request.waypoints[i];
     const std::string field = waypointField(i);
-    Waypoint waypoint;
+    PathPoint waypoint;
     waypoint.position = given.position.empty() ? solve(given, field, seed, notes)
                                                : values(request, given.position, field + ".position");
     requireWithinLimits(waypoint.position, field + ".position");

@@ -77,7 +77,7 @@ JointTrajectory restToRest(const VectorX& start, const VectorX& goal, const Limi
   const MotionState to{goal, from.velocity, from.velocity};
   double duration = tightestUse(quintic(from, to, 1.0), limits).stretch;
   if (duration == 0.0 && start != goal) {
-    throw InputError(ErrorCode::kInvalidGoal, "no finite limit bounds the motion to the new start: give limits");
+    throw InputError(AnswerCode::kInvalidGoal, "no finite limit bounds the motion to the new start: give limits");
   }
   if (start != goal) duration = std::max(duration, kShortestTime);
   return quintic(from, to, duration);
@@ -109,7 +109,7 @@ JointTrajectory bridgeTrajectory(const MotionState& from, const MotionState& to,
   if (detour_keeps) return detour;
   const LimitUse use = tightestUse(detour, limits);
   const std::string why = keeps(use) ? "position leaves the joint limits on every way found" : describe(use);
-  throw InputError(ErrorCode::kLimitsInfeasible, "no motion from the current state within the limits: " + why);
+  throw InputError(AnswerCode::kLimitsInfeasible, "no motion from the current state within the limits: " + why);
 }
 
 }  // namespace screwline

@@ -14,7 +14,8 @@ namespace {
 int degreeOf(const ProfileContext& context) {
   const double degree = context.parameter("degree", 3.0);
   if (degree == std::floor(degree) && degree >= 3.0 && degree <= 7.0) return static_cast<int>(degree);
-  throw InputError(ErrorCode::kInvalidGoal, "parameter 'degree' is " + number(degree) + ", it must be 3, 4, 5, 6 or 7");
+  throw InputError(AnswerCode::kInvalidGoal,
+                   "parameter 'degree' is " + number(degree) + ", it must be 3, 4, 5, 6 or 7");
 }
 
 /// How often an end point is repeated so that velocity and acceleration (and jerk, from degree 6) are zero there.
@@ -22,7 +23,7 @@ int copiesForRest(int degree) {
   return degree < 6 ? 3 : 4;
 }
 
-MatrixX controlPoints(const std::vector<Waypoint>& waypoints, int copies) {
+MatrixX controlPoints(const std::vector<PathPoint>& waypoints, int copies) {
   const MatrixX positions = positionsOf(waypoints);
   MatrixX control(positions.rows(), positions.cols() + 2 * (copies - 1));
   control.leftCols(copies).colwise() = positions.col(0);
@@ -53,10 +54,10 @@ ProfileDraft buildBspline(const ProfileContext& context) {
   const bool rest = context.parameter("rest_ends", 1.0) != 0.0;
   const MatrixX control = controlPoints(context.waypoints(), rest ? copiesForRest(degree) : 1);
   if (control.cols() < degree + 1) {
-    throw InputError(ErrorCode::kInvalidGoal, "waypoints has " + std::to_string(control.cols()) +
-                                                  " entries; without rest_ends a B-spline of degree " +
-                                                  std::to_string(degree) + " takes at least " +
-                                                  std::to_string(degree + 1));
+    throw InputError(AnswerCode::kInvalidGoal, "waypoints has " + std::to_string(control.cols()) +
+                                                   " entries; without rest_ends a B-spline of degree " +
+                                                   std::to_string(degree) + " takes at least " +
+                                                   std::to_string(degree + 1));
   }
   const auto build = [&](const std::vector<double>& times) {
     PiecewisePolynomial motion = piecesOf(uniformBspline(degree, control, times.back()));

@@ -63,7 +63,7 @@ Range sineRange(double from, double to) {
 
 }  // namespace
 
-JointTrajectory JointTrajectory::scaled(VectorX start, VectorX delta, TimeScaling scaling, double duration) {
+JointTrajectory JointTrajectory::scaled(VectorX start, VectorX delta, TimeLaw scaling, double duration) {
   JointTrajectory trajectory;
   trajectory.form_ = Form::kScaled;
   trajectory.joints_ = static_cast<int>(start.size());

@@ -16,22 +16,22 @@ const char* orderName(int order) {
 
 void requireSize(const VectorX& values, int joints, const std::string& field) {
   if (values.size() == joints) return;
-  throw InputError(ErrorCode::kInvalidGoal, field + " has " + std::to_string(values.size()) +
-                                                " values, the robot has " + std::to_string(joints) + " joints");
+  throw InputError(AnswerCode::kInvalidGoal, field + " has " + std::to_string(values.size()) +
+                                                 " values, the robot has " + std::to_string(joints) + " joints");
 }
 
 void validatePositive(const VectorX& values, int joints, const std::string& field) {
   requireSize(values, joints, field);
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (values[i] > 0.0) continue;
-    throw InputError(ErrorCode::kInvalidGoal, indexed(field, static_cast<std::size_t>(i)) + " is " + number(values[i]) +
-                                                  ", it must be positive");
+    throw InputError(AnswerCode::kInvalidGoal, indexed(field, static_cast<std::size_t>(i)) + " is " +
+                                                   number(values[i]) + ", it must be positive");
   }
 }
 
 void requireFactor(double factor, const std::string& field) {
   if (factor > 0.0 && factor <= 1.0) return;
-  throw InputError(ErrorCode::kInvalidGoal, field + " is " + number(factor) + ", it must lie in (0, 1]");
+  throw InputError(AnswerCode::kInvalidGoal, field + " is " + number(factor) + ", it must lie in (0, 1]");
 }
 
 }  // namespace
@@ -76,8 +76,8 @@ void validateLimits(const Limits& limits, int joints) {
   requireSize(limits.upper, joints, "upper position bound");
   for (int i = 0; i < joints; ++i) {
     if (limits.lower[i] <= limits.upper[i]) continue;
-    throw InputError(ErrorCode::kInvalidGoal, "joint " + std::to_string(i) + " has the position bounds " +
-                                                  number(limits.lower[i]) + " to " + number(limits.upper[i]));
+    throw InputError(AnswerCode::kInvalidGoal, "joint " + std::to_string(i) + " has the position bounds " +
+                                                   number(limits.lower[i]) + " to " + number(limits.upper[i]));
   }
 }
 

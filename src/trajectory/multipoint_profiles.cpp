@@ -14,25 +14,25 @@ VectorX orZero(const VectorX& values, int joints) {
   return values.size() > 0 ? values : VectorX(VectorX::Zero(joints));
 }
 
-bool movesAtEnds(const std::vector<Waypoint>& waypoints) {
+bool movesAtEnds(const std::vector<PathPoint>& waypoints) {
   return !waypoints.front().velocity.isZero(0.0) || !waypoints.back().velocity.isZero(0.0);
 }
 
 /// Nothing but positions decides the motion: then it scales with time as a whole.
-bool positionsDecide(const std::vector<Waypoint>& waypoints) {
-  return std::all_of(waypoints.begin(), waypoints.end(), [](const Waypoint& waypoint) {
+bool positionsDecide(const std::vector<PathPoint>& waypoints) {
+  return std::all_of(waypoints.begin(), waypoints.end(), [](const PathPoint& waypoint) {
     return waypoint.velocity.isZero(0.0) && waypoint.acceleration.isZero(0.0);
   });
 }
 
-MatrixX c2Velocities(const std::vector<Waypoint>& waypoints, const MatrixX& positions,
+MatrixX c2Velocities(const std::vector<PathPoint>& waypoints, const MatrixX& positions,
                      const std::vector<double>& times) {
   const int joints = static_cast<int>(positions.rows());
   return splineVelocities(times, positions, orZero(waypoints.front().velocity, joints),
                           orZero(waypoints.back().velocity, joints));
 }
 
-JointTrajectory quinticMotion(const std::vector<Waypoint>& waypoints, const MatrixX& positions,
+JointTrajectory quinticMotion(const std::vector<PathPoint>& waypoints, const MatrixX& positions,
                               const std::vector<double>& times) {
   MatrixX velocities = c2Velocities(waypoints, positions, times);
   MatrixX accelerations = splineAccelerations(times, positions, velocities);
@@ -50,7 +50,7 @@ JointTrajectory quinticMotion(const std::vector<Waypoint>& waypoints, const Matr
 void appendTrapezoid(std::vector<double>& breaks, std::vector<PiecewisePolynomial>& moves, const VectorX& start,
                      const VectorX& delta, double blend, double length) {
   if (length <= 0.0) return;
-  const TimeScaling scaling = TimeScaling::trapezoidal(blend);
+  const TimeLaw scaling = TimeLaw::trapezoidal(blend);
   const PiecewisePolynomial& s = scaling.pieces();
   PiecewisePolynomial move(static_cast<int>(start.size()), 2, s.breaks, 1);
   for (std::size_t k = 0; k < move.segments(); ++k) {

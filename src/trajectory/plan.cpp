@@ -15,8 +15,8 @@ constexpr double kMostSamples = 1e6;
 
 void requireSampleCount(double duration, double period) {
   if (duration / period <= kMostSamples) return;
-  throw InputError(ErrorCode::kTooLarge, "a duration of " + number(duration) + " s at sample_period " + number(period) +
-                                             " s makes more than 1000000 samples");
+  throw InputError(AnswerCode::kTooLarge, "a duration of " + number(duration) + " s at sample_period " +
+                                              number(period) + " s makes more than 1000000 samples");
 }
 
 /// An overshoot past a joint's range is the request's, not ours: no duration mends it, other waypoints do.
@@ -26,10 +26,10 @@ void requirePositionBounds(const JointTrajectory& trajectory, const Limits& limi
     const Range range = trajectory.extrema(j).position;
     const bool low = range.lower < limits.lower[j] - kLimitTolerance;
     if (!low && range.upper <= limits.upper[j] + kLimitTolerance) continue;
-    throw InputError(ErrorCode::kLimitsInfeasible, "profile '" + profile + "': joint " + std::to_string(j) +
-                                                       " would reach position " +
-                                                       number(low ? range.lower : range.upper) + ", its limits are " +
-                                                       number(limits.lower[j]) + " to " + number(limits.upper[j]));
+    throw InputError(AnswerCode::kLimitsInfeasible, "profile '" + profile + "': joint " + std::to_string(j) +
+                                                        " would reach position " +
+                                                        number(low ? range.lower : range.upper) + ", its limits are " +
+                                                        number(limits.lower[j]) + " to " + number(limits.upper[j]));
   }
 }
 
@@ -51,7 +51,7 @@ void noteInfiniteOrders(const JointTrajectory& trajectory, const std::string& pr
   }
 }
 
-MatrixX viaErrors(const ProfileDraft& draft, const std::vector<Waypoint>& waypoints) {
+MatrixX viaErrors(const ProfileDraft& draft, const std::vector<PathPoint>& waypoints) {
   const Eigen::Index vias = waypoints.size() > 2 ? static_cast<Eigen::Index>(waypoints.size()) - 2 : 0;
   MatrixX errors(vias, draft.trajectory.joints());
   TrajectoryPoint point(draft.trajectory.joints());

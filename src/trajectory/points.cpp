@@ -10,7 +10,7 @@ namespace screwline {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw InputError(ErrorCode::kInvalidGoal, message);
+  throw InputError(AnswerCode::kInvalidGoal, message);
 }
 
 void requireUsable(double value, const std::string& field) {
@@ -29,7 +29,7 @@ void requireVector(const VectorX& values, Eigen::Index joints, const std::string
 void validatePoints(const std::vector<SampledPoint>& points) {
   if (points.empty()) refuse("points is empty");
   if (points.size() > 1000000) {
-    throw InputError(ErrorCode::kTooLarge,
+    throw InputError(AnswerCode::kTooLarge,
                      "points has " + std::to_string(points.size()) + " entries, at most 1000000 are taken");
   }
   const SampledPoint& first = points.front();

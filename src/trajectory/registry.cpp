@@ -166,8 +166,8 @@ const std::vector<Profile>& registry() {
 
 }  // namespace
 
-std::vector<ProfileInfo> listProfiles() {
-  std::vector<ProfileInfo> infos;
+std::vector<ProfileSummary> listProfiles() {
+  std::vector<ProfileSummary> infos;
   for (const auto& profile : registry()) infos.push_back(profile.info);
   return infos;
 }
@@ -178,7 +178,7 @@ const Profile& findProfile(const std::string& name) {
     if (profile.info.name == name) return profile;
     known += (known.empty() ? "" : ", ") + profile.info.name;
   }
-  throw InputError(ErrorCode::kUnknownProfile, "profile '" + name + "' is unknown; known are " + known);
+  throw InputError(AnswerCode::kUnknownProfile, "profile '" + name + "' is unknown; known are " + known);
 }
 
 }  // namespace screwline

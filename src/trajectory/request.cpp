@@ -12,7 +12,7 @@ constexpr double kLargest = 1e6;
 constexpr std::size_t kMostWaypoints = 100000;
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw InputError(ErrorCode::kInvalidGoal, message);
+  throw InputError(AnswerCode::kInvalidGoal, message);
 }
 
 void requireUsable(double value, const std::string& field) {
@@ -47,8 +47,8 @@ void requireWithinBounds(const VectorX& position, const Limits& limits, const st
 void requireWithinLimit(const VectorX& values, const VectorX& bounds, const std::string& field) {
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (std::abs(values[i]) <= bounds[i] * (1.0 + kLimitTolerance)) continue;
-    throw InputError(ErrorCode::kLimitsInfeasible, indexed(field, static_cast<std::size_t>(i)) + " is " +
-                                                       number(values[i]) + ", the limit is " + number(bounds[i]));
+    throw InputError(AnswerCode::kLimitsInfeasible, indexed(field, static_cast<std::size_t>(i)) + " is " +
+                                                        number(values[i]) + ", the limit is " + number(bounds[i]));
   }
 }
 
@@ -63,7 +63,7 @@ void requireMeetable(const VectorX& values, const std::string& field, bool accep
 /// A velocity or acceleration that is given must be one that the profile meets: a zero at the ends always is.
 void validateDerivatives(const ProfileContext& context, const Profile& profile, std::size_t index,
                          const std::string& field) {
-  const Waypoint& waypoint = context.waypoints()[index];
+  const PathPoint& waypoint = context.waypoints()[index];
   const bool all = profile.derivatives == WaypointDerivatives::kAll;
   const bool end = index == 0 || index + 1 == context.waypoints().size();
   if (waypoint.velocity.size() > 0) {
@@ -84,7 +84,7 @@ void validateDerivatives(const ProfileContext& context, const Profile& profile, 
 void validateCount(const PlanRequest& request, const Profile& profile) {
   const std::size_t count = request.waypoints.size();
   if (count > kMostWaypoints) {
-    throw InputError(ErrorCode::kTooLarge,
+    throw InputError(AnswerCode::kTooLarge,
                      "waypoints has " + std::to_string(count) + " entries, at most 100000 are planned");
   }
   if (count >= profile.fewest_waypoints && count <= profile.most_waypoints) return;

@@ -10,12 +10,12 @@ namespace screwline {
 std::vector<double> sampleTimes(const JointTrajectory& trajectory, double period, bool with_corners) {
   constexpr double kMostSamples = 1e6;
   if (!(period > 0.0) || !std::isfinite(period)) {
-    throw InputError(ErrorCode::kInvalidGoal, "sample_period is " + number(period) + " s, it must be positive");
+    throw InputError(AnswerCode::kInvalidGoal, "sample_period is " + number(period) + " s, it must be positive");
   }
   const double duration = trajectory.duration();
   if (duration / period > kMostSamples) {
-    throw InputError(ErrorCode::kTooLarge, "a duration of " + number(duration) + " s at sample_period " +
-                                               number(period) + " s makes more than 1000000 samples");
+    throw InputError(AnswerCode::kTooLarge, "a duration of " + number(duration) + " s at sample_period " +
+                                                number(period) + " s makes more than 1000000 samples");
   }
   std::vector<double> times;
   const double slack = 1e-6 * period;  // Else a duration of n periods would get two samples a rounding apart.

@@ -26,19 +26,19 @@ double scalarBound(const VectorX& bounds, const VectorX& delta) {
 }  // namespace
 
 void refuseDuration(const ProfileContext& context, const LimitUse& use, double shortest) {
-  throw InputError(ErrorCode::kLimitsInfeasible, "profile '" + context.request.profile + "' in " +
-                                                     number(context.duration) + " s: " + describe(use) +
-                                                     "; the shortest feasible duration is " + number(shortest) + " s");
+  throw InputError(AnswerCode::kLimitsInfeasible, "profile '" + context.request.profile + "' in " +
+                                                      number(context.duration) + " s: " + describe(use) +
+                                                      "; the shortest feasible duration is " + number(shortest) + " s");
 }
 
-ProfileDraft scaleBetweenEnds(const ProfileContext& context, const TimeScaling& scaling) {
+ProfileDraft scaleBetweenEnds(const ProfileContext& context, const TimeLaw& scaling) {
   const VectorX& start = context.waypoints().front().position;
   const VectorX delta = displacement(context);
   // In unit time the stretch to the limits is the shortest duration itself: peaks scale with 1/T, 1/T^2, 1/T^3.
   const double shortest = tightestUse(JointTrajectory::scaled(start, delta, scaling, 1.0), context.limits).stretch;
   if (context.duration == 0.0 && shortest == 0.0 && !delta.isZero(0.0)) {
-    throw InputError(ErrorCode::kInvalidGoal, "duration is 0 and no finite limit bounds profile '" +
-                                                  context.request.profile + "': give a duration or a limit");
+    throw InputError(AnswerCode::kInvalidGoal, "duration is 0 and no finite limit bounds profile '" +
+                                                   context.request.profile + "': give a duration or a limit");
   }
   const double duration = context.duration > 0.0 ? context.duration : noLessThanShortest(shortest);
   ProfileDraft draft;
@@ -71,19 +71,19 @@ double blendWithin(const VectorX& delta, const Limits& limits, double duration) 
 }
 
 ProfileDraft buildRectangular(const ProfileContext& context) {
-  return scaleBetweenEnds(context, TimeScaling::rectangular());
+  return scaleBetweenEnds(context, TimeLaw::rectangular());
 }
 ProfileDraft buildCubic(const ProfileContext& context) {
-  return scaleBetweenEnds(context, TimeScaling::cubic());
+  return scaleBetweenEnds(context, TimeLaw::cubic());
 }
 ProfileDraft buildPolynomial345(const ProfileContext& context) {
-  return scaleBetweenEnds(context, TimeScaling::polynomial345());
+  return scaleBetweenEnds(context, TimeLaw::polynomial345());
 }
 ProfileDraft buildPolynomial4567(const ProfileContext& context) {
-  return scaleBetweenEnds(context, TimeScaling::polynomial4567());
+  return scaleBetweenEnds(context, TimeLaw::polynomial4567());
 }
 ProfileDraft buildCycloidal(const ProfileContext& context) {
-  return scaleBetweenEnds(context, TimeScaling::cycloidal());
+  return scaleBetweenEnds(context, TimeLaw::cycloidal());
 }
 
 ProfileDraft buildTrapezoidal(const ProfileContext& context) {
@@ -104,7 +104,7 @@ ProfileDraft buildTrapezoidal(const ProfileContext& context) {
             context.duration};
   }
   ProfileDraft draft;
-  const TimeScaling scaling = TimeScaling::trapezoidal(move.blend_fraction);
+  const TimeLaw scaling = TimeLaw::trapezoidal(move.blend_fraction);
   draft.trajectory = JointTrajectory::scaled(context.waypoints().front().position, delta, scaling, move.duration);
   const LimitUse use = tightestUse(draft.trajectory, context.limits);
   if (use.value > use.bound * (1.0 + kLimitTolerance)) {
@@ -118,7 +118,7 @@ ProfileDraft buildTrapezoidal(const ProfileContext& context) {
 
 ProfileDraft buildSinusoidal(const ProfileContext& context) {
   if (context.duration == 0.0) {
-    throw InputError(ErrorCode::kInvalidGoal,
+    throw InputError(AnswerCode::kInvalidGoal,
                      "duration is 0: a sinusoidal motion has no end of its own, give a duration");
   }
   const int n = context.joints();
@@ -127,7 +127,7 @@ ProfileDraft buildSinusoidal(const ProfileContext& context) {
     const std::string suffix = "_" + std::to_string(i);
     const auto offset = context.parameter("offset" + suffix);
     if (offset && !context.waypoints().empty()) {
-      throw InputError(ErrorCode::kInvalidGoal,
+      throw InputError(AnswerCode::kInvalidGoal,
                        "offset" + suffix + " is given and so is a waypoint: the offsets come from one of them");
     }
     motion.offset[i] = offset ? *offset : context.waypoints().empty() ? 0.0 : context.waypoints().front().position[i];
@@ -139,7 +139,7 @@ ProfileDraft buildSinusoidal(const ProfileContext& context) {
   draft.trajectory = JointTrajectory::sinusoidal(motion, context.duration);
   const LimitUse use = tightestUse(draft.trajectory, context.limits);
   if (use.value > use.bound * (1.0 + kLimitTolerance)) {
-    throw InputError(ErrorCode::kLimitsInfeasible,
+    throw InputError(AnswerCode::kLimitsInfeasible,
                      "profile 'sinusoidal': " + describe(use) + "; lower its omega or amplitude");
   }
   draft.waypoint_times.assign(context.waypoints().size(), 0.0);

@@ -48,19 +48,19 @@ std::vector<double> stretched(std::vector<double> times, double factor) {
 
 void requireSearchable(const ProfileContext& context) {
   if (context.waypoints().size() <= kMostSearchedWaypoints) return;
-  throw InputError(ErrorCode::kTooLarge,
+  throw InputError(AnswerCode::kTooLarge,
                    "waypoints has " + std::to_string(context.waypoints().size()) +
                        " entries; with velocities or times fixed, durations are searched for at most " +
                        std::to_string(kMostSearchedWaypoints) + ": give every time");
 }
 
 [[noreturn]] void refuseUnbounded(const ProfileContext& context) {
-  throw InputError(ErrorCode::kInvalidGoal, "duration is 0 and no finite limit bounds profile '" +
-                                                context.request.profile + "': give a duration or a limit");
+  throw InputError(AnswerCode::kInvalidGoal, "duration is 0 and no finite limit bounds profile '" +
+                                                 context.request.profile + "': give a duration or a limit");
 }
 
 [[noreturn]] void refuseAlways(const ProfileContext& context, const LimitUse& use) {
-  throw InputError(ErrorCode::kLimitsInfeasible,
+  throw InputError(AnswerCode::kLimitsInfeasible,
                    "profile '" + context.request.profile + "': " + describe(use) +
                        "; no duration is feasible with the given times, velocities and accelerations");
 }
@@ -83,25 +83,25 @@ void requireFeasible(const ProfileContext& context, const TimedBuilder& build, c
 
 }  // namespace
 
-MatrixX positionsOf(const std::vector<Waypoint>& waypoints) {
+MatrixX positionsOf(const std::vector<PathPoint>& waypoints) {
   MatrixX positions(waypoints.front().position.size(), static_cast<Eigen::Index>(waypoints.size()));
   for (std::size_t k = 0; k < waypoints.size(); ++k)
     positions.col(static_cast<Eigen::Index>(k)) = waypoints[k].position;
   return positions;
 }
 
-bool nothingMoves(const std::vector<Waypoint>& waypoints) {
-  return std::all_of(waypoints.begin(), waypoints.end(), [&](const Waypoint& waypoint) {
+bool nothingMoves(const std::vector<PathPoint>& waypoints) {
+  return std::all_of(waypoints.begin(), waypoints.end(), [&](const PathPoint& waypoint) {
     const bool still = waypoint.velocity.isZero(0.0) && waypoint.acceleration.isZero(0.0);
     return still && waypoint.position == waypoints.front().position;
   });
 }
 
-std::vector<double> segmentWeights(const std::vector<Waypoint>& waypoints, const Limits& limits) {
+std::vector<double> segmentWeights(const std::vector<PathPoint>& waypoints, const Limits& limits) {
   std::vector<double> weights;
   for (std::size_t k = 1; k < waypoints.size(); ++k) {
     const VectorX delta = waypoints[k].position - waypoints[k - 1].position;
-    const auto unit = JointTrajectory::scaled(waypoints[k - 1].position, delta, TimeScaling::polynomial345(), 1.0);
+    const auto unit = JointTrajectory::scaled(waypoints[k - 1].position, delta, TimeLaw::polynomial345(), 1.0);
     weights.push_back(tightestUse(unit, limits).stretch);
   }
   if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0.0; })) {

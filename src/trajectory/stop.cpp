@@ -45,14 +45,15 @@ Phases brake(double v, double a, double most, double jerk) {
 
 void requireVector(const VectorX& values, const Limits& limits, const std::string& field) {
   if (values.size() != limits.joints()) {
-    throw InputError(ErrorCode::kInvalidGoal, field + " has " + std::to_string(values.size()) +
-                                                  " values, the robot has " + std::to_string(limits.joints()) +
-                                                  " joints");
+    throw InputError(AnswerCode::kInvalidGoal, field + " has " + std::to_string(values.size()) +
+                                                   " values, the robot has " + std::to_string(limits.joints()) +
+                                                   " joints");
   }
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i]) && std::abs(values[i]) <= 1e6) continue;
-    throw InputError(ErrorCode::kInvalidGoal, indexed(field, static_cast<std::size_t>(i)) + " is " + number(values[i]) +
-                                                  ", its magnitude must be finite and at most 1000000");
+    throw InputError(AnswerCode::kInvalidGoal, indexed(field, static_cast<std::size_t>(i)) + " is " +
+                                                   number(values[i]) +
+                                                   ", its magnitude must be finite and at most 1000000");
   }
 }
 
@@ -61,7 +62,7 @@ void requireBrakes(const MotionState& state, const Limits& limits) {
     if (std::isfinite(limits.acceleration[j]) || std::isfinite(limits.jerk[j])) continue;
     if (state.velocity[j] == 0.0 && state.acceleration[j] == 0.0) continue;
     throw InputError(
-        ErrorCode::kInvalidGoal,
+        AnswerCode::kInvalidGoal,
         "joint " + std::to_string(j) + " moves and has neither an acceleration nor a jerk limit: no stop is defined");
   }
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double kRounding = 1e-12;  // A pair on the very boundary is feasible, whatever the last bit says.
 
 [[noreturn]] void infeasible(const std::string& what) {
-  throw InputError(ErrorCode::kInvalidGoal, "trapezoid: " + what);
+  throw InputError(AnswerCode::kInvalidGoal, "trapezoid: " + what);
 }
 
 void requirePositive(const std::optional<double>& value, const char* name) {

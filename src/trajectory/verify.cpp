@@ -75,7 +75,7 @@ std::optional<std::string> verifyTrajectory(const JointTrajectory& trajectory, c
     if (trajectory.pieces() == nullptr) continue;
     if (auto broken = checkSteps(*trajectory.pieces(), extrema, j)) return broken;
   }
-  if (const TimeScaling* scaling = trajectory.scaling(); scaling != nullptr && !scaling->isCycloidal()) {
+  if (const TimeLaw* scaling = trajectory.scaling(); scaling != nullptr && !scaling->isCycloidal()) {
     if (auto broken = checkSteps(scaling->pieces(), scaling->extrema(), 0)) return "time scaling, " + *broken;
   }
   const LimitUse use = tightestUse(trajectory, limits);

@@ -17,19 +17,20 @@ using ViaBuilder = std::function<JointTrajectory(double duration, double via_tau
 std::optional<double> givenTau(const ProfileContext& context) {
   const auto tau = context.parameter("via_tau");
   if (tau && context.waypoints()[1].time > 0.0) {
-    throw InputError(ErrorCode::kInvalidGoal,
+    throw InputError(AnswerCode::kInvalidGoal,
                      "parameter 'via_tau' and waypoints[1].time are both given: one of them decides");
   }
   if (tau && !(*tau > 0.0 && *tau < 1.0)) {
-    throw InputError(ErrorCode::kInvalidGoal, "parameter 'via_tau' is " + number(*tau) + ", it must lie inside (0, 1)");
+    throw InputError(AnswerCode::kInvalidGoal,
+                     "parameter 'via_tau' is " + number(*tau) + ", it must lie inside (0, 1)");
   }
   return tau;
 }
 
 [[noreturn]] void refuseViaTime(const ProfileContext& context, const LimitUse& use) {
-  throw InputError(ErrorCode::kLimitsInfeasible, "profile '" + context.request.profile + "': " + describe(use) +
-                                                     "; no duration is feasible with the via at " +
-                                                     number(context.waypoints()[1].time) + " s");
+  throw InputError(AnswerCode::kLimitsInfeasible, "profile '" + context.request.profile + "': " + describe(use) +
+                                                      "; no duration is feasible with the via at " +
+                                                      number(context.waypoints()[1].time) + " s");
 }
 
 /// The via is due at a fixed instant and the duration is free: its fraction changes with the duration, so search.
@@ -48,8 +49,8 @@ ProfileDraft fitVia(const ProfileContext& context, const ViaBuilder& build) {
   const double tau = instant > 0.0 ? instant / context.duration : fraction.value_or(0.5);
   const double shortest = tightestUse(build(1.0, tau), context.limits).stretch;
   if (context.duration == 0.0 && shortest == 0.0 && !nothingMoves(context.waypoints())) {
-    throw InputError(ErrorCode::kInvalidGoal, "duration is 0 and no finite limit bounds profile '" +
-                                                  context.request.profile + "': give a duration or a limit");
+    throw InputError(AnswerCode::kInvalidGoal, "duration is 0 and no finite limit bounds profile '" +
+                                                   context.request.profile + "': give a duration or a limit");
   }
   const double duration = context.duration > 0.0 ? context.duration : noLessThanShortest(shortest);
   ProfileDraft draft{build(duration, tau), {0.0, tau * duration, duration}, {}};
@@ -58,17 +59,17 @@ ProfileDraft fitVia(const ProfileContext& context, const ViaBuilder& build) {
   return draft;
 }
 
-double viaShare(const std::vector<Waypoint>& waypoints) {
+double viaShare(const std::vector<PathPoint>& waypoints) {
   const double travel = waypoints[2].position[0] - waypoints[0].position[0];
   if (travel == 0.0) {
-    throw InputError(ErrorCode::kInvalidGoal,
+    throw InputError(AnswerCode::kInvalidGoal,
                      "profile 'via_scalar' fits s(tau) to the first joint, which starts and ends at " +
                          number(waypoints[0].position[0]) + ": no S exists (via_per_joint passes any via)");
   }
   return (waypoints[1].position[0] - waypoints[0].position[0]) / travel;
 }
 
-void noteReversal(const TimeScaling& scaling, std::vector<std::string>& notes) {
+void noteReversal(const TimeLaw& scaling, std::vector<std::string>& notes) {
   if (scaling.isMonotone()) return;
   notes.push_back("the motion reverses: s(tau) covers " + number(scaling.extrema().position.lower) + " to " +
                   number(scaling.extrema().position.upper) + " instead of 0 to 1");
@@ -93,7 +94,7 @@ ProfileDraft buildViaScalar(const ProfileContext& context) {
   const double share = viaShare(waypoints);
   const VectorX delta = waypoints[2].position - waypoints[0].position;
   const auto build = [&](double duration, double tau) {
-    return JointTrajectory::scaled(waypoints[0].position, delta, TimeScaling::via6(share, tau), duration);
+    return JointTrajectory::scaled(waypoints[0].position, delta, TimeLaw::via6(share, tau), duration);
   };
   ProfileDraft draft = fitVia(context, build);
   draft.notes.push_back("S = " + number(share) + " from the first joint, due at tau = " +
@@ -106,7 +107,7 @@ ProfileDraft buildViaScalar(const ProfileContext& context) {
 ProfileDraft buildViaPerJoint(const ProfileContext& context) {
   const auto& waypoints = context.waypoints();
   const auto build = [&](double duration, double tau) {
-    const double at_via = TimeScaling::polynomial345().at(tau).s;
+    const double at_via = TimeLaw::polynomial345().at(tau).s;
     const double lift = std::pow(tau * (1.0 - tau), 3);
     PiecewisePolynomial motion(context.joints(), 6, {0.0, duration}, 2);
     for (int j = 0; j < context.joints(); ++j) {

@@ -39,7 +39,7 @@ VectorX randomConfiguration(test::ArmMaker& maker, const SerialChain& chain) {
 void expectLawful(const InverseKinematics& ik, const IkResult& result, const Pose& target) {
   EXPECT_TRUE(result.complete) << result.message;
   for (std::size_t i = 0; i < result.solutions.size(); ++i) {
-    const IkSolution& solution = result.solutions[i];
+    const IkAnswer& solution = result.solutions[i];
     const TaskError error = taskError(ik.task(), target, forwardByExponentials(ik.chain(), solution.position));
     EXPECT_LE(error.norm(), 1e-9);
     EXPECT_TRUE(solution.position.allFinite());
@@ -71,7 +71,7 @@ TEST_P(IkLaws, FindsTheGeneratingConfigurationOfRandomArms) {
       ASSERT_EQ(result.status, IkStatus::kSolved) << result.message;
       expectLawful(ik, result, forwardKinematics(arm.chain, q));
       double nearest = 10.0;
-      for (const IkSolution& solution : result.solutions)
+      for (const IkAnswer& solution : result.solutions)
         nearest = std::min(nearest, difference(arm.chain, solution.position, q));
       EXPECT_LE(nearest, 1e-6) << "q = " << q.transpose();
     }
@@ -114,7 +114,7 @@ TEST_P(IkLaws, NoSolutionIsMissedThatAnExhaustiveSearchFinds) {
     const SearchResult found = search(arm.chain, arm.task, forwardKinematics(arm.chain, q), {}, options);
     for (const VectorX& other : found.solutions) {
       double nearest = 10.0;
-      for (const IkSolution& solution : result.solutions)
+      for (const IkAnswer& solution : result.solutions)
         nearest = std::min(nearest, difference(arm.chain, solution.position, other));
       EXPECT_LE(nearest, 1e-5) << "the search found " << other.transpose();
     }

@@ -126,7 +126,7 @@ TEST(Bridge, FromRandomStatesToRestAndToStates) {
     try {
       expectBridge(from, to, limits, "seed 63, trial " + std::to_string(trial));
     } catch (const InputError& error) {
-      EXPECT_EQ(error.code(), ErrorCode::kLimitsInfeasible);
+      EXPECT_EQ(error.code(), AnswerCode::kLimitsInfeasible);
       ++refused;
     }
   }

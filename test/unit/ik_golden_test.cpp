@@ -54,9 +54,9 @@ TEST_P(IkGolden, FiniteSetsAreEqual) {
     const IkResult result = solve(c, c.ik.task);
     EXPECT_TRUE(result.complete) << result.message;
     EXPECT_EQ(result.solutions.size(), c.ik.solutions.size());
-    for (const golden::IkSolution& expected : c.ik.solutions) {
+    for (const golden::IkAnswer& expected : c.ik.solutions) {
       double nearest = 10.0;
-      for (const IkSolution& solution : result.solutions) {
+      for (const IkAnswer& solution : result.solutions) {
         nearest = std::min(nearest, difference(file_.chain, solution.position, expected.q));
         EXPECT_EQ(solution.self_motion.rows(), 0);
       }
@@ -76,7 +76,7 @@ TEST_P(IkGolden, ContinuaAreTheFamilies) {
     EXPECT_EQ(result.solutions.size(), c.ik.families.size());
     for (const golden::IkFamily& family : c.ik.families) {
       int members = 0;
-      for (const IkSolution& solution : result.solutions) {
+      for (const IkAnswer& solution : result.solutions) {
         if (!isMember(file_.chain, family, solution.position)) continue;
         ++members;
         EXPECT_EQ(solution.self_motion.rows(), static_cast<Eigen::Index>(family.free.size()));
@@ -109,11 +109,11 @@ TEST_P(IkGolden, FullPoseTellsWhichSolutionsMatchTheOrientation) {
     SCOPED_TRACE(c.id);
     const IkResult result = solve(c, Task());
     std::size_t matches = 0;
-    for (const golden::IkSolution& expected : c.ik.solutions) {
+    for (const golden::IkAnswer& expected : c.ik.solutions) {
       if (!expected.full_pose_matches) continue;
       ++matches;
       double nearest = 10.0;
-      for (const IkSolution& solution : result.solutions)
+      for (const IkAnswer& solution : result.solutions)
         nearest = std::min(nearest, difference(file_.chain, solution.position, expected.q));
       EXPECT_LE(nearest, kTolerance);
     }

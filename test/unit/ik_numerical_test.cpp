@@ -70,7 +70,7 @@ TEST(IkNumerical, FindsTheGoldenSolutions) {
       options.restarts = 200;
       options.timeout = 10.0;
       const SearchResult result = search(file.chain, test.ik.task, test.pose, {}, options);
-      for (const golden::IkSolution& solution : test.ik.solutions) {
+      for (const golden::IkAnswer& solution : test.ik.solutions) {
         EXPECT_TRUE(contains(result.solutions, file.chain, solution.q)) << name << " " << test.id;
       }
       EXPECT_EQ(result.solutions.size(), test.ik.solutions.size()) << name << " " << test.id;

@@ -41,7 +41,7 @@ IkRequest requestAt(const SerialChain& chain, const std::vector<double>& q) {
   return request;
 }
 
-void expectRefused(const InverseKinematics& ik, const IkRequest& request, ErrorCode code, const std::string& part) {
+void expectRefused(const InverseKinematics& ik, const IkRequest& request, AnswerCode code, const std::string& part) {
   try {
     ik.solve(request);
     ADD_FAILURE() << "not refused: " << part;
@@ -105,15 +105,14 @@ TEST(IkRequest, EveryTurnInsideTheLimitsOnRequest) {
   request.all_turns = true;
   const IkResult result = InverseKinematics(chain, kPlane).solve(request);
   EXPECT_EQ(result.solutions.size(), 16U);  // Two turns of three joints, on two branches.
-  for (const IkSolution& solution : result.solutions) EXPECT_LE(solution.position.cwiseAbs().maxCoeff(), 2.0 * kPi);
+  for (const IkAnswer& solution : result.solutions) EXPECT_LE(solution.position.cwiseAbs().maxCoeff(), 2.0 * kPi);
 }
 
 TEST(IkRequest, TurnsFollowTheSeedAndElseAreWrapped) {
   const SerialChain chain = planarArm(-10, 10);
   IkRequest request = requestAt(chain, {0.9 + kTwoPi, 0.8, 0.3 - kTwoPi});
   const InverseKinematics ik(chain, kPlane);
-  for (const IkSolution& solution : ik.solve(request).solutions)
-    EXPECT_LE(solution.position.cwiseAbs().maxCoeff(), kPi);
+  for (const IkAnswer& solution : ik.solve(request).solutions) EXPECT_LE(solution.position.cwiseAbs().maxCoeff(), kPi);
   request.seed = VectorX(3);
   request.seed << 0.9 + kTwoPi, 0.8, 0.3 - kTwoPi;
   EXPECT_LE((ik.solve(request).solutions.front().position - request.seed).norm(), 1e-9);
@@ -182,7 +181,7 @@ TEST(IkRequest, AContinuumTellsItsRangeWithinLimits) {
   request.seed = VectorX::Zero(3);
   const IkResult result = InverseKinematics(wrist, Task::fromRows({3, 4, 5})).solve(request);
   ASSERT_EQ(result.solutions.size(), 1U);
-  const IkSolution& solution = result.solutions[0];
+  const IkAnswer& solution = result.solutions[0];
   EXPECT_EQ(solution.branch, "wrist aligned");
   EXPECT_NEAR(solution.position[0], 0.2, 1e-9);  // The member nearest to the seed.
   EXPECT_NEAR(solution.position[2], 0.2, 1e-9);
@@ -199,30 +198,30 @@ TEST(IkRequest, BadInputIsRefusedByName) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   IkRequest bad = good;
   bad.seed = VectorX::Zero(2);
-  expectRefused(ik, bad, ErrorCode::kInvalidRobotState, "seed.position has 2 values, chain 'arm' has 3 joints");
+  expectRefused(ik, bad, AnswerCode::kInvalidRobotState, "seed.position has 2 values, chain 'arm' has 3 joints");
   bad.seed = VectorX::Constant(3, nan);
-  expectRefused(ik, bad, ErrorCode::kInvalidRobotState, "joint1");
+  expectRefused(ik, bad, AnswerCode::kInvalidRobotState, "joint1");
   bad = good;
   bad.target.p.y() = nan;
-  expectRefused(ik, bad, ErrorCode::kInvalidGoal, "pose.position.y");
+  expectRefused(ik, bad, AnswerCode::kInvalidGoal, "pose.position.y");
   bad = good;
   bad.target.p.x() = 2e6;
-  expectRefused(ik, bad, ErrorCode::kInvalidGoal, "pose.position.x");
+  expectRefused(ik, bad, AnswerCode::kInvalidGoal, "pose.position.x");
   bad = good;
   bad.target.R = bad.target.R * rotationAbout(Vector3::UnitX(), 2e-6);
-  expectRefused(ik, bad, ErrorCode::kInvalidGoal, "turned off the base's z axis by 2e-06");
+  expectRefused(ik, bad, AnswerCode::kInvalidGoal, "turned off the base's z axis by 2e-06");
   bad = good;
   bad.branch = "elbow sideways";
-  expectRefused(ik, bad, ErrorCode::kInvalidGoal, "known are elbow up, elbow down");
+  expectRefused(ik, bad, AnswerCode::kInvalidGoal, "known are elbow up, elbow down");
   bad = good;
   bad.max_solutions = -1;
-  expectRefused(ik, bad, ErrorCode::kInvalidGoal, "max_solutions is -1");
+  expectRefused(ik, bad, AnswerCode::kInvalidGoal, "max_solutions is -1");
   bad = good;
   bad.redundancy = {0.5};
-  expectRefused(ik, bad, ErrorCode::kInvalidGoal, "redundancy has 1 values");
+  expectRefused(ik, bad, AnswerCode::kInvalidGoal, "redundancy has 1 values");
   bad = good;
   bad.timeout = -1.0;
-  expectRefused(ik, bad, ErrorCode::kInvalidGoal, "timeout");
+  expectRefused(ik, bad, AnswerCode::kInvalidGoal, "timeout");
 }
 
 TEST(IkRequest, ChainsWithoutAClosedFormSaySo) {

@@ -133,13 +133,13 @@ TEST_P(KinematicsGolden, ConditionsAgreeWithTheRank) {
   forEach([this](const SerialChain& chain, const golden::Case& c) {
     const SingularityAnalysis analysis = analyzeSingularity(chain, c.q, file_.task);
     ASSERT_FALSE(analysis.conditions.empty());
-    for (const SingularityCondition& condition : analysis.conditions) {
+    for (const SingularCondition& condition : analysis.conditions) {
       EXPECT_TRUE(std::isfinite(condition.value));
       EXPECT_NE(condition.name, "determinant") << "every arm of the golden files has explicit conditions";
       EXPECT_EQ(condition.active, analysis.singular && std::abs(condition.value) < 1e-9) << condition.expression;
     }
     const bool any = std::any_of(analysis.conditions.begin(), analysis.conditions.end(),
-                                 [](const SingularityCondition& condition) { return condition.active; });
+                                 [](const SingularCondition& condition) { return condition.active; });
     EXPECT_EQ(any, c.rank_task < chain.size());
   });
 }

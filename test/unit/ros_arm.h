@@ -33,7 +33,7 @@ inline std::shared_ptr<const SerialChain> arm() {
 }
 
 /// The call throws InputError with this code, and its message holds `words`.
-inline void expectRefused(const std::function<void()>& call, ErrorCode code, const std::string& words) {
+inline void expectRefused(const std::function<void()>& call, AnswerCode code, const std::string& words) {
   try {
     call();
     ADD_FAILURE() << "not refused: " << words;

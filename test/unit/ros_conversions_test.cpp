@@ -46,11 +46,11 @@ TEST(Conversions, QuaternionsOffUnitLength) {
   EXPECT_TRUE(fromQuaternion(quaternion, "q").isApprox(Matrix3::Identity(), 1e-15));
   for (const double bad : {1.0011, 0.9989, 0.0}) {
     quaternion.w = bad;
-    expectRefused([&] { fromQuaternion(quaternion, "q"); }, ErrorCode::kInvalidGoal, "q has norm " + numberText(bad));
+    expectRefused([&] { fromQuaternion(quaternion, "q"); }, AnswerCode::kInvalidGoal, "q has norm " + numberText(bad));
   }
   for (const double bad : {kNan, kInf, -2e6}) {
     quaternion.y = bad;
-    expectRefused([&] { fromQuaternion(quaternion, "q"); }, ErrorCode::kInvalidGoal, "q.y is ");
+    expectRefused([&] { fromQuaternion(quaternion, "q"); }, AnswerCode::kInvalidGoal, "q.y is ");
   }
 }
 
@@ -60,7 +60,7 @@ TEST(Conversions, NumbersBeyondTheBound) {
   EXPECT_EQ(fromPoint(point, "p"), Vector3(1e6, 0.0, 0.0));
   for (const double bad : {kNan, kInf, -kInf, 1.0000001e6, -1e300}) {
     point.z = bad;
-    expectRefused([&] { fromPoint(point, "p"); }, ErrorCode::kInvalidGoal, "p.z is " + numberText(bad));
+    expectRefused([&] { fromPoint(point, "p"); }, AnswerCode::kInvalidGoal, "p.z is " + numberText(bad));
     EXPECT_EQ(fromPoint(point, "p", {true, true, false}), Vector3(1e6, 0.0, 0.0));
   }
 }
@@ -104,7 +104,7 @@ TEST(JointValues, WhatIsRefused) {
   const auto chain = arm();
   const auto refused = [&](const std::vector<std::string>& names, const std::vector<double>& values,
                            const std::string& words) {
-    expectRefused([&] { jointPositions(*chain, jointState(names, values)); }, ErrorCode::kInvalidRobotState, words);
+    expectRefused([&] { jointPositions(*chain, jointState(names, values)); }, AnswerCode::kInvalidRobotState, words);
   };
   refused({}, {1, 2}, "joint_state.position has 2 values, chain 'arm' has 3 joints");
   refused({}, {1}, "joint_state.position has 1 value, chain");
@@ -129,15 +129,15 @@ TEST(FrameResolver, LinksAndOtherFrames) {
   EXPECT_TRUE(isApprox(frames.withoutConfiguration("base", "f"), Pose(), 0.0));
   EXPECT_TRUE(isApprox(frames.withoutConfiguration("table", "f"), {Matrix3::Identity(), Vector3(0, 0, 1)}, 0.0));
   EXPECT_EQ(frames.nameOf(""), "base");
-  expectRefused([&] { frames.atConfiguration("nowhere", q, "frame_id"); }, ErrorCode::kFrameTransformFailure,
+  expectRefused([&] { frames.atConfiguration("nowhere", q, "frame_id"); }, AnswerCode::kFrameTransformFailure,
                 "frame_id 'nowhere' is neither a link of chain 'arm' nor known to tf2");
-  expectRefused([&] { frames.withoutConfiguration("l2", "frame_id"); }, ErrorCode::kFrameTransformFailure,
+  expectRefused([&] { frames.withoutConfiguration("l2", "frame_id"); }, AnswerCode::kFrameTransformFailure,
                 "frame_id 'l2' moves with the chain");
 }
 
 TEST(FrameResolver, WithoutTf) {
   const FrameResolver frames(arm(), nullptr);
-  expectRefused([&] { frames.withoutConfiguration("lab", "f"); }, ErrorCode::kFrameTransformFailure, "'lab'");
+  expectRefused([&] { frames.withoutConfiguration("lab", "f"); }, AnswerCode::kFrameTransformFailure, "'lab'");
 }
 
 }  // namespace

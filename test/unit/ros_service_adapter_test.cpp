@@ -29,7 +29,7 @@ ComputeIK::Response answeredIk(Body&& body) {
 TEST(ServiceAdapter, Success) {
   const auto response = answeredIk([](ComputeIK::Response& r) {
     r.joint_names = {"a"};
-    return Outcome{ErrorCode::kSuccess, "2 solutions"};
+    return Outcome{AnswerCode::kSuccess, "2 solutions"};
   });
   EXPECT_TRUE(response.success);
   EXPECT_EQ(response.error_code, 1);
@@ -40,7 +40,7 @@ TEST(ServiceAdapter, Success) {
 TEST(ServiceAdapter, ExpectedFailureKeepsTheAnswer) {
   const auto response = answeredIk([](ComputeIK::Response& r) {
     r.distance_to_reachable = 0.5;
-    return Outcome{ErrorCode::kNoIkSolution, "none"};
+    return Outcome{AnswerCode::kNoIkSolution, "none"};
   });
   EXPECT_FALSE(response.success);
   EXPECT_EQ(response.error_code, -31);
@@ -50,7 +50,7 @@ TEST(ServiceAdapter, ExpectedFailureKeepsTheAnswer) {
 TEST(ServiceAdapter, ExceptionsBecomeCodes) {
   const auto bad_input = answeredIk([](ComputeIK::Response& r) -> Outcome {
     r.joint_names = {"a"};
-    throw InputError(ErrorCode::kInvalidLinkName, "link_name is 'x'");
+    throw InputError(AnswerCode::kInvalidLinkName, "link_name is 'x'");
   });
   EXPECT_FALSE(bad_input.success);
   EXPECT_EQ(bad_input.error_code, -18);

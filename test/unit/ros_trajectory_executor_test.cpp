@@ -24,12 +24,10 @@ Limits limits() {
 }
 
 JointTrajectory move(const VectorX& from, const VectorX& to, double duration) {
-  return JointTrajectory::scaled(from, to - from, TimeScaling::polynomial345(), duration);
+  return JointTrajectory::scaled(from, to - from, TimeLaw::polynomial345(), duration);
 }
 
-VectorX pair(double a, double b) {
-  return (VectorX(2) << a, b).finished();
-}
+VectorX pair(double a, double b) { return Eigen::Vector2d(a, b); }
 
 struct Stream {
   FakeClock clock;
@@ -107,7 +105,7 @@ TEST(MotionExecutor, TheEndHasASampleOfItsOwn) {
   for (const double rate : {7.0, 100.0, 333.0, 1000.0}) {
     Stream stream(rate);
     stream.run(2);
-    const JointTrajectory main = JointTrajectory::scaled(pair(0, 0), pair(1, 2), TimeScaling::rectangular(), 1.2345);
+    const JointTrajectory main = JointTrajectory::scaled(pair(0, 0), pair(1, 2), TimeLaw::rectangular(), 1.2345);
     const auto started = stream.go(main);
     stream.run(static_cast<int>(2.0 * rate));
     const std::vector<Sent> inside = stream.window(started);
@@ -240,7 +238,7 @@ TEST(MotionExecutor, AMakerThatThrowsChangesNothing) {
   stream.go(move(pair(0, 0), pair(1, -1), 2.0));
   stream.run(30);
   EXPECT_THROW(stream.executor.replace(
-                   [](const MotionState&) -> Motion { throw InputError(ErrorCode::kLimitsInfeasible, "no way"); }),
+                   [](const MotionState&) -> Motion { throw InputError(AnswerCode::kLimitsInfeasible, "no way"); }),
                InputError);
   stream.run(300);
   EXPECT_EQ(stream.sent.back().state.position, pair(1, -1));

@@ -14,8 +14,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-WaypointMsg at(const std::vector<double>& position) {
-  WaypointMsg waypoint;
+Waypoint at(const std::vector<double>& position) {
+  Waypoint waypoint;
   waypoint.position = position;
   return waypoint;
 }
@@ -32,9 +32,9 @@ PlanTrajectory::Request question(const std::string& profile, double duration = 0
 struct Bench {
   FakeClock clock;
   std::vector<trajectory_msgs::JointTrajectory> trajectories;
-  std::vector<TrajectoryMetricsMsg> metrics;
+  std::vector<TrajectoryMetrics> metrics;
   std::vector<sensor_msgs::JointState> states;
-  std::vector<TimeScalingMsg> scalings;
+  std::vector<TimeScaling> scalings;
   std::vector<geometry_msgs::PoseStamped> poses;
   std::vector<geometry_msgs::TwistStamped> twists;
   TrajectoryGenerator generator;
@@ -120,7 +120,7 @@ TEST(TrajectoryGenerator, PosesInFramesOfTheChainAndOfTf) {
     if (frame == "cell") X_BF.p = {0.1, 0.2, 0.0};
     if (frame == "table") X_BF = chain->findLink("table")->home;
     PlanTrajectory::Request request = question("cubic");
-    request.waypoints[1] = WaypointMsg();
+    request.waypoints[1] = Waypoint();
     request.waypoints[1].pose.header.frame_id = frame;
     request.waypoints[1].pose.pose = toPose(X_BF.inverse() * target);
     const auto answer = bench.plan(request);
@@ -130,10 +130,10 @@ TEST(TrajectoryGenerator, PosesInFramesOfTheChainAndOfTf) {
     EXPECT_LT((met.p - target.p).head<2>().norm(), 1e-8) << frame;
   }
   PlanTrajectory::Request request = question("cubic");
-  request.waypoints[1] = WaypointMsg();
+  request.waypoints[1] = Waypoint();
   request.waypoints[1].pose.header.frame_id = "nowhere";
   request.waypoints[1].pose.pose = toPose(target);
-  EXPECT_EQ(bench.plan(request).error_code, static_cast<int>(ErrorCode::kFrameTransformFailure));
+  EXPECT_EQ(bench.plan(request).error_code, static_cast<int>(AnswerCode::kFrameTransformFailure));
 }
 
 TEST(TrajectoryGenerator, ARefusedExecutionLeavesTheMotion) {
@@ -145,7 +145,7 @@ TEST(TrajectoryGenerator, ARefusedExecutionLeavesTheMotion) {
   ExecuteTrajectory::Request bad;
   bad.trajectory.points.resize(1);
   bad.trajectory.points[0].positions = {9.0, 0.0, 0.0};
-  expectRefused([&] { bench.execute(bad); }, ErrorCode::kLimitsInfeasible, "'a'");
+  expectRefused([&] { bench.execute(bad); }, AnswerCode::kLimitsInfeasible, "'a'");
   bench.run(100);
   EXPECT_NEAR(bench.states.back().position[0], 0.5, 1e-12);
   EXPECT_EQ(bench.trajectories.size(), 1U);
@@ -168,7 +168,7 @@ TEST(TrajectoryGenerator, PointsWithALeadFollowIt) {
   const auto chain = arm();
   const VectorX zero = VectorX::Zero(3);
   const VectorX far = VectorX::Constant(3, 0.5);
-  const JointTrajectory main = JointTrajectory::scaled(far, -far, TimeScaling::cubic(), 1.0);
+  const JointTrajectory main = JointTrajectory::scaled(far, -far, TimeLaw::cubic(), 1.0);
   const Motion motion = startFrom({zero, zero, zero}, main, limitsOf(*chain));
   const auto all = withLead(*chain, motion, sampled(*chain, main, 0.1).message);
   for (std::size_t i = 1; i < all.points.size(); ++i) {

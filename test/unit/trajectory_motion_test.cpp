@@ -281,10 +281,10 @@ TEST_F(BrokenTrajectory, PositionBound) {
 }
 
 TEST_F(BrokenTrajectory, TimeScalingThatSteps) {
-  PiecewisePolynomial s = TimeScaling::polynomial345().pieces();
+  PiecewisePolynomial s = TimeLaw::polynomial345().pieces();
   s.at(0, 1, 0) = 0.01;
   s.at(0, 2, 0) = -0.01;
-  const JointTrajectory motion = JointTrajectory::scaled(vector({0.0}), vector({1.0}), TimeScaling(s), 10.0);
+  const JointTrajectory motion = JointTrajectory::scaled(vector({0.0}), vector({1.0}), TimeLaw(s), 10.0);
   EXPECT_TRUE(verifyTrajectory(motion, limitsOf(1, 1, 4, 40), {}).has_value());
 }
 

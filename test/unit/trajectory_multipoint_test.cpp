@@ -97,7 +97,7 @@ TEST(Multipoint, TooShortIsRefusedAndTheNamedDurationWorks) {
     r.duration = named * (1.0 + 1e-8);
     EXPECT_NO_THROW(plan(r)) << profile;
     r.duration = named * (1.0 - 1e-6);
-    EXPECT_EQ(errorOf(r), ErrorCode::kLimitsInfeasible) << profile;
+    EXPECT_EQ(errorOf(r), AnswerCode::kLimitsInfeasible) << profile;
   }
 }
 
@@ -129,10 +129,10 @@ TEST(MultipointCubic, EndVelocitiesAreMet) {
   EXPECT_NEAR(point.velocity[0], -0.3, 1e-12);
   EXPECT_LE(tightestUse(result.trajectory, r.limits).stretch, 1.0 + 1e-9);
   r.waypoints[1].velocity = vector({0.2});
-  EXPECT_EQ(errorOf(r), ErrorCode::kInvalidGoal);
+  EXPECT_EQ(errorOf(r), AnswerCode::kInvalidGoal);
   r.waypoints[1].velocity.resize(0);
   r.waypoints[0].velocity = vector({1.2});
-  EXPECT_EQ(errorOf(r), ErrorCode::kLimitsInfeasible);
+  EXPECT_EQ(errorOf(r), AnswerCode::kLimitsInfeasible);
 }
 
 TEST(MultipointCubic, EqualsTheNaturalFormulaOfThreePoints) {
@@ -186,7 +186,7 @@ TEST(Bspline, WithoutRestEndsItIsDeBoorsCurve) {
     EXPECT_NEAR(point.position[0], 3.0 * w * w * u - 0.5 * 3.0 * w * u * u + 0.3 * u * u * u, 1e-13);
   }
   r.waypoints.pop_back();
-  EXPECT_EQ(errorOf(r), ErrorCode::kInvalidGoal);
+  EXPECT_EQ(errorOf(r), AnswerCode::kInvalidGoal);
 }
 
 TEST(BsplineInterpolating, EveryDegreeMeetsEveryWaypointAtRestEnds) {
@@ -221,14 +221,14 @@ TEST(Sinusoidal, EqualsItsFormulaAndKeepsLimits) {
     EXPECT_NEAR(point.jerk[2], -27.0 * std::cos(3.0 * t), 1e-12);
   }
   r.limits = limitsOf(3, 2.5, 100.0, 1000.0);
-  EXPECT_EQ(errorOf(r), ErrorCode::kLimitsInfeasible);
+  EXPECT_EQ(errorOf(r), AnswerCode::kLimitsInfeasible);
   EXPECT_NE(messageOf(r).find("joint 2"), std::string::npos);
   r.limits = Limits::unlimited(3);
   r.parameters.push_back({"amplitude_3", 1.0});
-  EXPECT_EQ(errorOf(r), ErrorCode::kInvalidGoal);
+  EXPECT_EQ(errorOf(r), AnswerCode::kInvalidGoal);
   r.parameters.pop_back();
   r.duration = 0.0;
-  EXPECT_EQ(errorOf(r), ErrorCode::kInvalidGoal);
+  EXPECT_EQ(errorOf(r), AnswerCode::kInvalidGoal);
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST(SingleMove, TooShortADurationIsRefusedWithTheShortestOne) {
     PlanRequest r = request(profile, {vector({0.0, 0.0}), vector({1.0, 2.0})}, limitsOf(2, 1.0, 2.0, 10.0));
     const double shortest = plan(r).trajectory.duration();
     r.duration = 0.5 * shortest;
-    EXPECT_EQ(errorOf(r), ErrorCode::kLimitsInfeasible) << profile;
+    EXPECT_EQ(errorOf(r), AnswerCode::kLimitsInfeasible) << profile;
     EXPECT_NE(messageOf(r).find("joint 1"), std::string::npos) << messageOf(r);
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", shortest);
@@ -94,7 +94,7 @@ TEST(SingleMove, MoreWaypointsThanTwoAreRefusedClearly) {
   const auto limits = limitsOf(1, 1.0, 1.0, 1.0);
   for (const char* profile : kSingleMoves) {
     const PlanRequest r = request(profile, {vector({0.0}), vector({1.0}), vector({2.0})}, limits);
-    EXPECT_EQ(errorOf(r), ErrorCode::kInvalidGoal);
+    EXPECT_EQ(errorOf(r), AnswerCode::kInvalidGoal);
     EXPECT_EQ(messageOf(r), "waypoints has 3 entries, profile '" + std::string(profile) + "' takes exactly 2");
   }
 }
@@ -122,9 +122,9 @@ TEST(Trapezoidal, ParametersDefineIt) {
   EXPECT_NEAR(result.trajectory.extrema(0).acceleration, 1.6, 1e-12);
   r.parameters = {{"peak_velocity", 0.8}, {"acceleration", 1.6}};
   r.duration = 3.0;
-  EXPECT_EQ(errorOf(r), ErrorCode::kInvalidGoal);  // Three of the four.
+  EXPECT_EQ(errorOf(r), AnswerCode::kInvalidGoal);  // Three of the four.
   r.parameters = {{"peak_velocity", 0.5}};
-  EXPECT_EQ(errorOf(r), ErrorCode::kInvalidGoal);  // 2 rad in 3 s need more than 2/3.
+  EXPECT_EQ(errorOf(r), AnswerCode::kInvalidGoal);  // 2 rad in 3 s need more than 2/3.
 }
 
 TEST(Trapezoidal, GivenDurationTakesThirdsWhereTheLimitsAllow) {
@@ -189,7 +189,7 @@ TEST(ViaScalar, PrintedAnglesMissByTheStudiedError) {
 TEST(ViaScalar, FirstJointThatDoesNotMoveHasNoS) {
   const PlanRequest r =
       request("via_scalar", {vector({1.0, 0.0}), vector({2.0, 1.0}), vector({1.0, 2.0})}, limitsOf(2, 1, 1, 1));
-  EXPECT_EQ(errorOf(r), ErrorCode::kInvalidGoal);
+  EXPECT_EQ(errorOf(r), AnswerCode::kInvalidGoal);
   EXPECT_NE(messageOf(r).find("no S exists"), std::string::npos);
   EXPECT_NO_THROW(
       plan(request("via_per_joint", {vector({1.0, 0.0}), vector({2.0, 1.0}), vector({1.0, 2.0})}, r.limits)));
@@ -238,7 +238,7 @@ TEST(ViaPerJoint, AnyInstantByTimeOrFraction) {
   r.duration = 14.0;
   EXPECT_LT(plan(r).via_joint_errors.cwiseAbs().maxCoeff(), 1e-12);
   r.parameters = {{"via_tau", 0.3}};
-  EXPECT_EQ(errorOf(r), ErrorCode::kInvalidGoal);
+  EXPECT_EQ(errorOf(r), AnswerCode::kInvalidGoal);
 }
 
 TEST(ViaPerJoint, ViaTimeWithFreeDurationIsSearched) {

@@ -87,14 +87,14 @@ TEST(Points, BadMessagesAreRefused) {
 TEST(Refusals, EachNamesFieldValueAndBound) {
   const auto limits = limitsOf(2, 1.0, 2.0, 10.0);
   const std::vector<VectorX> way{vector({0.0, 0.0}), vector({1.0, 1.0})};
-  const auto message = [&](const std::function<void(PlanRequest&)>& spoil, ErrorCode code = ErrorCode::kInvalidGoal) {
+  const auto message = [&](const std::function<void(PlanRequest&)>& spoil, AnswerCode code = AnswerCode::kInvalidGoal) {
     PlanRequest r = request("multipoint_cubic", way, limits);
     spoil(r);
     EXPECT_EQ(trajectory_test::errorOf(r), code);
     return trajectory_test::messageOf(r);
   };
   using M = PlanRequest&;
-  EXPECT_NE(message([](M r) { r.profile = "warp"; }, ErrorCode::kUnknownProfile).find("multipoint_quintic"),
+  EXPECT_NE(message([](M r) { r.profile = "warp"; }, AnswerCode::kUnknownProfile).find("multipoint_quintic"),
             std::string::npos);
   EXPECT_NE(message([](M r) { r.waypoints.clear(); }).find("waypoints has 0 entries"), std::string::npos);
   EXPECT_NE(message([](M r) { r.waypoints.pop_back(); }).find("waypoints has 1 entries"), std::string::npos);
@@ -132,10 +132,10 @@ TEST(Refusals, EachNamesFieldValueAndBound) {
               r.profile = "cubic", r.waypoints[1].velocity = vector({0.0, 0.3});
             }).find("velocity[1] is 0.3"),
             std::string::npos);
-  EXPECT_NE(
-      message([](M r) { r.duration = 1000.0, r.sample_period = 1e-6; }, ErrorCode::kTooLarge).find("more than 1000000"),
-      std::string::npos);
-  EXPECT_NE(message([](M r) { r.waypoints.resize(100001, r.waypoints[0]); }, ErrorCode::kTooLarge).find("100001"),
+  EXPECT_NE(message([](M r) { r.duration = 1000.0, r.sample_period = 1e-6; }, AnswerCode::kTooLarge)
+                .find("more than 1000000"),
+            std::string::npos);
+  EXPECT_NE(message([](M r) { r.waypoints.resize(100001, r.waypoints[0]); }, AnswerCode::kTooLarge).find("100001"),
             std::string::npos);
 }
 
@@ -154,12 +154,12 @@ TEST(Refusals, PositionsOutsideBoundsAndOvershoot) {
   PlanRequest r = request("multipoint_cubic", {vector({0.0}), vector({1.0}), vector({0.9})}, limitsOf(1, 1, 10, 100));
   r.limits.lower = vector({-0.1});
   r.limits.upper = vector({0.95});
-  EXPECT_EQ(trajectory_test::errorOf(r), ErrorCode::kInvalidGoal);
+  EXPECT_EQ(trajectory_test::errorOf(r), AnswerCode::kInvalidGoal);
   r.limits.upper = vector({1.0});
-  EXPECT_EQ(trajectory_test::errorOf(r), ErrorCode::kLimitsInfeasible);
+  EXPECT_EQ(trajectory_test::errorOf(r), AnswerCode::kLimitsInfeasible);
   EXPECT_NE(trajectory_test::messageOf(r).find("joint 0 would reach position 1.0"), std::string::npos);
   r.limits.upper = vector({1.2});
-  EXPECT_EQ(trajectory_test::errorOf(r), ErrorCode::kSuccess);
+  EXPECT_EQ(trajectory_test::errorOf(r), AnswerCode::kSuccess);
 }
 
 TEST(Refusals, NoLimitAndNoDuration) {
@@ -168,7 +168,7 @@ TEST(Refusals, NoLimitAndNoDuration) {
     const bool via = info.name.rfind("via", 0) == 0;
     std::vector<VectorX> way{vector({0.0}), vector({1.0})};
     if (via) way.push_back(vector({2.0}));
-    EXPECT_EQ(trajectory_test::errorOf(request(info.name, way, Limits::unlimited(1))), ErrorCode::kInvalidGoal)
+    EXPECT_EQ(trajectory_test::errorOf(request(info.name, way, Limits::unlimited(1))), AnswerCode::kInvalidGoal)
         << info.name;
   }
 }

@@ -9,7 +9,7 @@
 
 #include "screwline/exception.h"
 #include "screwline/spatial/pose.h"
-#include "screwline/trajectory/time_scaling.h"
+#include "screwline/trajectory/time_law.h"
 #include "screwline/trajectory/trapezoid.h"
 
 namespace screwline {
@@ -27,19 +27,19 @@ YAML::Node golden(const std::string& name) {
   throw std::runtime_error("no profile " + name);
 }
 
-std::map<std::string, TimeScaling> scalings() {
-  return {{"rectangular", TimeScaling::rectangular()},
-          {"cubic", TimeScaling::cubic()},
-          {"trapezoid_thirds", TimeScaling::trapezoidal(1.0 / 3.0)},
-          {"trapezoid_tenth", TimeScaling::trapezoidal(0.1)},
-          {"triangle", TimeScaling::trapezoidal(0.5)},
-          {"345", TimeScaling::polynomial345()},
-          {"4567", TimeScaling::polynomial4567()},
-          {"cycloidal", TimeScaling::cycloidal()},
-          {"minimum_jerk", TimeScaling::minimumJerk()}};
+std::map<std::string, TimeLaw> scalings() {
+  return {{"rectangular", TimeLaw::rectangular()},
+          {"cubic", TimeLaw::cubic()},
+          {"trapezoid_thirds", TimeLaw::trapezoidal(1.0 / 3.0)},
+          {"trapezoid_tenth", TimeLaw::trapezoidal(0.1)},
+          {"triangle", TimeLaw::trapezoidal(0.5)},
+          {"345", TimeLaw::polynomial345()},
+          {"4567", TimeLaw::polynomial4567()},
+          {"cycloidal", TimeLaw::cycloidal()},
+          {"minimum_jerk", TimeLaw::minimumJerk()}};
 }
 
-void expectSamples(const TimeScaling& scaling, const YAML::Node& rows, double tolerance) {
+void expectSamples(const TimeLaw& scaling, const YAML::Node& rows, double tolerance) {
   ASSERT_GE(rows.size(), 13u);
   for (const auto& row : rows) {
     const ScalingSample s = scaling.at(row[0].as<double>());
@@ -104,7 +104,7 @@ TEST(Polynomial, RangeAndVariationContainDenseSamples) {
   }
 }
 
-TEST(TimeScaling, BoundaryValuesAndMonotone) {
+TEST(TimeLaw, BoundaryValuesAndMonotone) {
   for (const auto& [name, s] : scalings()) {
     EXPECT_NEAR(s.at(0.0).s, 0.0, 1e-15) << name;
     EXPECT_NEAR(s.at(1.0).s, 1.0, 1e-14) << name;
@@ -124,7 +124,7 @@ TEST(TimeScaling, BoundaryValuesAndMonotone) {
   }
 }
 
-TEST(TimeScaling, DerivativesEqualFiniteDifferences) {
+TEST(TimeLaw, DerivativesEqualFiniteDifferences) {
   constexpr double kStep = 1e-5;
   for (const auto& [name, s] : scalings()) {
     for (int i = 1; i < 100; ++i) {
@@ -140,7 +140,7 @@ TEST(TimeScaling, DerivativesEqualFiniteDifferences) {
   }
 }
 
-TEST(TimeScaling, SymmetricUnderTimeReversal) {
+TEST(TimeLaw, SymmetricUnderTimeReversal) {
   for (const auto& [name, s] : scalings()) {
     for (int i = 0; i <= 50; ++i) {
       const double tau = 0.01 * i + 0.0007;
@@ -153,21 +153,21 @@ TEST(TimeScaling, SymmetricUnderTimeReversal) {
   }
 }
 
-TEST(TimeScaling, HeldOutsideTheInterval) {
+TEST(TimeLaw, HeldOutsideTheInterval) {
   for (const auto& [name, s] : scalings()) {
     EXPECT_EQ(s.at(-0.5).s, s.at(0.0).s) << name;
     EXPECT_EQ(s.at(1.5).s, s.at(1.0).s) << name;
   }
 }
 
-TEST(TimeScaling, GoldenSamples) {
+TEST(TimeLaw, GoldenSamples) {
   for (const char* name : {"cubic", "345", "4567", "trapezoid_thirds", "cycloidal"}) {
     SCOPED_TRACE(name);
     expectSamples(scalings().at(name), golden(name)["samples_tau_s_s1_s2_s3"], 1e-12);
   }
 }
 
-TEST(TimeScaling, GoldenPeaks) {
+TEST(TimeLaw, GoldenPeaks) {
   for (const char* name : {"cubic", "345", "4567"}) {
     const YAML::Node peaks = golden(name)["peaks"];
     const JointExtrema e = scalings().at(name).extrema();
@@ -180,46 +180,46 @@ TEST(TimeScaling, GoldenPeaks) {
     EXPECT_NEAR(scalings().at(name).extrema().velocity, peaks["s1"]["value"].as<double>(), 1e-13) << name;
     EXPECT_NEAR(scalings().at(name).extrema().acceleration, peaks["s2"]["value"].as<double>(), 1e-12) << name;
   }
-  EXPECT_NEAR(TimeScaling::cycloidal().extrema().jerk, golden("cycloidal")["peaks"]["s3"]["value"].as<double>(), 1e-11);
+  EXPECT_NEAR(TimeLaw::cycloidal().extrema().jerk, golden("cycloidal")["peaks"]["s3"]["value"].as<double>(), 1e-11);
 }
 
-TEST(TimeScaling, InfinitePeaksWhereItStepsWithTheSizeOfTheStep) {
-  EXPECT_TRUE(std::isinf(TimeScaling::rectangular().extrema().peak(2)));
-  EXPECT_DOUBLE_EQ(TimeScaling::rectangular().extrema().velocity_step, 1.0);
-  EXPECT_EQ(TimeScaling::cubic().extrema().peak(2), 6.0);
-  EXPECT_TRUE(std::isinf(TimeScaling::cubic().extrema().peak(3)));
-  EXPECT_DOUBLE_EQ(TimeScaling::cubic().extrema().acceleration_step, 6.0);
-  EXPECT_NEAR(TimeScaling::trapezoidal(1.0 / 3.0).extrema().acceleration_step, 4.5, 1e-12);
-  EXPECT_NEAR(TimeScaling::trapezoidal(0.5).extrema().acceleration_step, 8.0, 1e-12);  // +4 to -4 at the peak.
+TEST(TimeLaw, InfinitePeaksWhereItStepsWithTheSizeOfTheStep) {
+  EXPECT_TRUE(std::isinf(TimeLaw::rectangular().extrema().peak(2)));
+  EXPECT_DOUBLE_EQ(TimeLaw::rectangular().extrema().velocity_step, 1.0);
+  EXPECT_EQ(TimeLaw::cubic().extrema().peak(2), 6.0);
+  EXPECT_TRUE(std::isinf(TimeLaw::cubic().extrema().peak(3)));
+  EXPECT_DOUBLE_EQ(TimeLaw::cubic().extrema().acceleration_step, 6.0);
+  EXPECT_NEAR(TimeLaw::trapezoidal(1.0 / 3.0).extrema().acceleration_step, 4.5, 1e-12);
+  EXPECT_NEAR(TimeLaw::trapezoidal(0.5).extrema().acceleration_step, 8.0, 1e-12);  // +4 to -4 at the peak.
   for (const char* name : {"345", "4567", "cycloidal"})
     EXPECT_TRUE(std::isfinite(scalings().at(name).extrema().peak(3))) << name;
 }
 
-TEST(TimeScaling, TrapezoidPeaksByBlendFraction) {
+TEST(TimeLaw, TrapezoidPeaksByBlendFraction) {
   for (double b : {0.01, 0.1, 0.25, 1.0 / 3.0, 0.49, 0.5}) {
-    const JointExtrema e = TimeScaling::trapezoidal(b).extrema();
+    const JointExtrema e = TimeLaw::trapezoidal(b).extrema();
     EXPECT_NEAR(e.velocity, 1.0 / (1.0 - b), 1e-12);
     EXPECT_NEAR(e.acceleration, 1.0 / (b * (1.0 - b)), 1e-10);
-    EXPECT_NEAR(TimeScaling::trapezoidal(b).at(0.5).s, 0.5, 1e-13);
+    EXPECT_NEAR(TimeLaw::trapezoidal(b).at(0.5).s, 0.5, 1e-13);
   }
-  for (double b : {0.0, -0.1, 0.51, std::nan("")}) EXPECT_THROW(TimeScaling::trapezoidal(b), InputError);
+  for (double b : {0.0, -0.1, 0.51, std::nan("")}) EXPECT_THROW(TimeLaw::trapezoidal(b), InputError);
 }
 
-TEST(TimeScaling, IntegralsOfSquares) {
-  EXPECT_NEAR(TimeScaling::polynomial345().extrema().squared_jerk, 720.0, 1e-9);  // Minimum jerk: 720.
-  EXPECT_NEAR(TimeScaling::cubic().extrema().squared_acceleration, 12.0, 1e-12);
-  EXPECT_NEAR(TimeScaling::cycloidal().extrema().squared_acceleration, 2.0 * kPi * kPi, 1e-12);
+TEST(TimeLaw, IntegralsOfSquares) {
+  EXPECT_NEAR(TimeLaw::polynomial345().extrema().squared_jerk, 720.0, 1e-9);  // Minimum jerk: 720.
+  EXPECT_NEAR(TimeLaw::cubic().extrema().squared_acceleration, 12.0, 1e-12);
+  EXPECT_NEAR(TimeLaw::cycloidal().extrema().squared_acceleration, 2.0 * kPi * kPi, 1e-12);
   for (const double S : {1.0 / 3.0, 2.0, -3.0}) {
     const double expected = 144.0 * (1024.0 * S * S - 1024.0 * S + 291.0) / 7.0;
-    EXPECT_NEAR(TimeScaling::via6(S).extrema().squared_jerk, expected, 1e-9 * expected);
+    EXPECT_NEAR(TimeLaw::via6(S).extrema().squared_jerk, expected, 1e-9 * expected);
   }
 }
 
-TEST(TimeScaling, MinimumJerkIsLeastAmongSmoothNeighbours) {
-  const double least = TimeScaling::minimumJerk().extrema().squared_jerk;
-  for (double S : {0.4, 0.49, 0.51, 0.6}) EXPECT_GT(TimeScaling::via6(S).extrema().squared_jerk, least);
-  EXPECT_GT(TimeScaling::polynomial4567().extrema().squared_jerk, least);
-  EXPECT_GT(TimeScaling::cycloidal().extrema().squared_jerk, least);
+TEST(TimeLaw, MinimumJerkIsLeastAmongSmoothNeighbours) {
+  const double least = TimeLaw::minimumJerk().extrema().squared_jerk;
+  for (double S : {0.4, 0.49, 0.51, 0.6}) EXPECT_GT(TimeLaw::via6(S).extrema().squared_jerk, least);
+  EXPECT_GT(TimeLaw::polynomial4567().extrema().squared_jerk, least);
+  EXPECT_GT(TimeLaw::cycloidal().extrema().squared_jerk, least);
 }
 
 TEST(Via6, GoldenExamples) {
@@ -228,7 +228,7 @@ TEST(Via6, GoldenExamples) {
       {"S_1_3", 1.0 / 3.0}, {"S_1_2", 0.5}, {"S_seed004_printed", 0.0760279}, {"S_2", 2.0}, {"S_minus3", -3.0}};
   for (const auto& [name, S] : values) {
     SCOPED_TRACE(name);
-    const TimeScaling s = TimeScaling::via6(S);
+    const TimeLaw s = TimeLaw::via6(S);
     expectSamples(s, examples[name]["samples_tau_s_s1_s2_s3"], 1e-9);
     const JointExtrema e = s.extrema();
     EXPECT_NEAR(e.position.lower, examples[name]["s_min"].as<double>(), 1e-12);
@@ -244,7 +244,7 @@ TEST(Via6, PrintedCoefficientsOfSeed004) {
   // Printed: S = 0.0760279 and 27.13, -75.40, 66.40, -17.13 for the degrees 6 to 3.
   const double S = (90.0 - 83.14) / (173.37 - 83.14);
   EXPECT_NEAR(S, 0.0760279, 5e-8);
-  const Polynomial p = TimeScaling::via6(S).pieces().piece(0, 0);
+  const Polynomial p = TimeLaw::via6(S).pieces().piece(0, 0);
   EXPECT_NEAR(p.c[6], 27.13, 0.005);
   EXPECT_NEAR(p.c[5], -75.40, 0.005);
   EXPECT_NEAR(p.c[4], 66.40, 0.005);
@@ -252,18 +252,18 @@ TEST(Via6, PrintedCoefficientsOfSeed004) {
 }
 
 TEST(Via6, MonotoneExactlyBetweenElevenAndTwentyOneOver32) {
-  EXPECT_TRUE(TimeScaling::via6(11.0 / 32.0).isMonotone());
-  EXPECT_TRUE(TimeScaling::via6(21.0 / 32.0).isMonotone());
-  EXPECT_FALSE(TimeScaling::via6(11.0 / 32.0 - 1e-2).isMonotone());
-  EXPECT_FALSE(TimeScaling::via6(21.0 / 32.0 + 1e-2).isMonotone());
-  EXPECT_FALSE(TimeScaling::via6(1.0 / 3.0).isMonotone());
+  EXPECT_TRUE(TimeLaw::via6(11.0 / 32.0).isMonotone());
+  EXPECT_TRUE(TimeLaw::via6(21.0 / 32.0).isMonotone());
+  EXPECT_FALSE(TimeLaw::via6(11.0 / 32.0 - 1e-2).isMonotone());
+  EXPECT_FALSE(TimeLaw::via6(21.0 / 32.0 + 1e-2).isMonotone());
+  EXPECT_FALSE(TimeLaw::via6(1.0 / 3.0).isMonotone());
 }
 
 TEST(Via6, AnyViaInstant) {
   for (double tau : {0.1, 0.3, 0.5, 0.77}) {
-    for (double S : {-1.0, 0.2, 0.9}) EXPECT_NEAR(TimeScaling::via6(S, tau).at(tau).s, S, 1e-12);
+    for (double S : {-1.0, 0.2, 0.9}) EXPECT_NEAR(TimeLaw::via6(S, tau).at(tau).s, S, 1e-12);
   }
-  for (double tau : {0.0, 1.0, -0.5, std::nan("")}) EXPECT_THROW(TimeScaling::via6(0.5, tau), InputError);
+  for (double tau : {0.0, 1.0, -0.5, std::nan("")}) EXPECT_THROW(TimeLaw::via6(0.5, tau), InputError);
 }
 
 /// All four values, consistent with distance and the area under the trapezoid.

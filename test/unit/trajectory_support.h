@@ -32,7 +32,7 @@ inline PlanRequest request(const std::string& profile, const std::vector<VectorX
   result.profile = profile;
   result.limits = limits;
   for (const auto& position : positions) {
-    Waypoint waypoint;
+    PathPoint waypoint;
     waypoint.position = position;
     result.waypoints.push_back(waypoint);
   }
@@ -47,13 +47,13 @@ inline JointTrajectory planned(const std::string& profile, const std::vector<Vec
 }
 
 /// What plan() throws; kSuccess where it does not.
-inline ErrorCode errorOf(const PlanRequest& request) {
+inline AnswerCode errorOf(const PlanRequest& request) {
   try {
     plan(request);
   } catch (const InputError& error) {
     return error.code();
   }
-  return ErrorCode::kSuccess;
+  return AnswerCode::kSuccess;
 }
 
 inline std::string messageOf(const PlanRequest& request) {

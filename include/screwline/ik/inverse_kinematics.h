@@ -24,7 +24,7 @@ struct IkRequest {
 };
 
 /// One solution. See IkSolution.msg.
-struct IkSolution {
+struct IkAnswer {
   VectorX position;                ///< n: rad, m.
   std::string branch;              ///< "shoulder front, elbow up, wrist no flip"; stable along a path.
   double position_error = 0.0;     ///< [m] from forward kinematics, over the task.
@@ -50,13 +50,13 @@ enum class IkStatus {
 
 struct IkResult {
   IkStatus status = IkStatus::kNotFound;
-  std::vector<IkSolution> solutions;  ///< Nearest to the seed first; those that the request lets through.
-  bool complete = false;              ///< Every isolated solution and every continuum is in the list.
-  std::string method;                 ///< How they were found.
-  int outside_limits = 0;             ///< Solutions that exist but break limits.
-  int left_out = 0;                   ///< Solutions beyond max_solutions: the list is cut, and not complete.
+  std::vector<IkAnswer> solutions;  ///< Nearest to the seed first; those that the request lets through.
+  bool complete = false;            ///< Every isolated solution and every continuum is in the list.
+  std::string method;               ///< How they were found.
+  int outside_limits = 0;           ///< Solutions that exist but break limits.
+  int left_out = 0;                 ///< Solutions beyond max_solutions: the list is cut, and not complete.
   bool timed_out = false;
-  IkSolution closest;                  ///< Best reachable configuration where there is no solution.
+  IkAnswer closest;                    ///< Best reachable configuration where there is no solution.
   double distance_to_reachable = 0.0;  ///< sqrt(position_error^2 + (rotation_weight orientation_error)^2) of `closest`.
   std::string message;                 ///< One line, for people.
 };

@@ -13,7 +13,7 @@ namespace screwline {
 constexpr double kRankTolerance = 1e-9;
 
 /// A named way for the task to become singular. See SingularityCondition.msg.
-struct SingularityCondition {
+struct SingularCondition {
   std::string name;        ///< "elbow", "shoulder", "wrist", ...
   std::string expression;  ///< "sin(theta3) = 0"
   std::string latex;
@@ -50,7 +50,7 @@ struct SingularityAnalysis {
   double manipulability = 0.0;
   double condition_number = 0.0;  ///< Largest over smallest singular value; kMaxCondition where singular.
   double determinant = 0.0;       ///< NaN where the task Jacobian is not square.
-  std::vector<SingularityCondition> conditions;
+  std::vector<SingularCondition> conditions;
   VectorX nearest;  ///< n; a singular configuration nearest to q, within limits where there is one; empty: none found.
   double distance = 0.0;  ///< Norm of nearest - q (rad and m mixed); infinite where none was found.
   bool nearest_within_limits = false;

@@ -16,7 +16,7 @@ std::string numberText(double value);
 std::string quoted(const std::string& name);
 
 /// @throws InputError (code) where value is not finite or beyond kMaxMagnitude; the message names field, value, bound.
-void requireFinite(double value, const std::string& field, ErrorCode code = ErrorCode::kInvalidGoal);
+void requireFinite(double value, const std::string& field, AnswerCode code = AnswerCode::kInvalidGoal);
 
 /// @throws InputError (kTooLarge) where an array has more entries than are served.
 void requireCount(std::size_t count, std::size_t bound, const std::string& field);

@@ -18,9 +18,9 @@ namespace ros_bridge {
 struct StreamSample {
   Nanoseconds stamp = 0;  ///< The instant that it is about.
   const TrajectoryPoint* state = nullptr;
-  const TimeScaling* scaling = nullptr;  ///< s(tau) of the motion; null: none, or not in it yet.
-  double tau = 0.0;                      ///< Where scaling is given.
-  bool held = false;                     ///< The motion is over.
+  const TimeLaw* scaling = nullptr;  ///< s(tau) of the motion; null: none, or not in it yet.
+  double tau = 0.0;                  ///< Where scaling is given.
+  bool held = false;                 ///< The motion is over.
 };
 using StreamSink = std::function<void(const StreamSample& sample)>;
 

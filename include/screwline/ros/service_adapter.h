@@ -12,7 +12,7 @@ namespace ros_bridge {
 
 /// How a question ended: what goes into success, error_code and message.
 struct Outcome {
-  ErrorCode code = ErrorCode::kSuccess;
+  AnswerCode code = AnswerCode::kSuccess;
   std::string message;
 };
 
@@ -27,16 +27,16 @@ Outcome run(Response& response, Body&& body) {
     const Outcome outcome = body();
     if (isSound(response)) return outcome;
     response = Response();
-    return {ErrorCode::kFailure, "internal check: the answer holds a number that is not finite"};
+    return {AnswerCode::kFailure, "internal check: the answer holds a number that is not finite"};
   } catch (const InputError& error) {
     response = Response();
     return {error.code(), error.what()};
   } catch (const std::exception& error) {
     response = Response();
-    return {ErrorCode::kFailure, std::string("internal failure: ") + error.what()};
+    return {AnswerCode::kFailure, std::string("internal failure: ") + error.what()};
   } catch (...) {
     response = Response();
-    return {ErrorCode::kFailure, "internal failure of an unknown kind"};
+    return {AnswerCode::kFailure, "internal failure of an unknown kind"};
   }
 }
 
@@ -49,7 +49,7 @@ template <typename Response, typename Body>
 bool serve(const std::string& service, Response& response, Body&& body) {
   const Outcome outcome = detail::run(response, body);
   detail::logOutcome(service, outcome);
-  response.success = outcome.code == ErrorCode::kSuccess;
+  response.success = outcome.code == AnswerCode::kSuccess;
   response.error_code = static_cast<int>(outcome.code);
   response.message = outcome.message;
   return true;

@@ -41,8 +41,8 @@ trajectory_msgs::JointTrajectory withLead(const SerialChain& chain, const Motion
                                           const trajectory_msgs::JointTrajectory& main);
 
 /// Figures of a motion that is meant to end at `goal`.
-TrajectoryMetricsMsg metricsOf(const std::shared_ptr<const SerialChain>& chain, const JointTrajectory& trajectory,
-                               const Limits& limits, const VectorX& goal);
+TrajectoryMetrics metricsOf(const std::shared_ptr<const SerialChain>& chain, const JointTrajectory& trajectory,
+                            const Limits& limits, const VectorX& goal);
 
 /// Position, velocity and acceleration of the tip's origin. The acceleration's part that comes from the change of the
 /// Jacobian is a central difference along the motion: error about 1e-10 of the squared speed. From one thread.

@@ -19,7 +19,7 @@ namespace ros_bridge {
 struct PlannedMotion {
   JointTrajectory trajectory;
   trajectory_msgs::JointTrajectory message;
-  TrajectoryMetricsMsg metrics;
+  TrajectoryMetrics metrics;
 };
 
 /// Answers ~plan: the request's waypoints in joint space, the core's plan, its answer. Many threads may call it.
@@ -43,7 +43,7 @@ class TrajectoryPlanner {
   VectorX values(const PlanTrajectory::Request& request, const std::vector<double>& given,
                  const std::string& field) const;
   void requireWithinLimits(const VectorX& position, const std::string& field) const;
-  VectorX solve(const WaypointMsg& waypoint, const std::string& field, PoseSeed& seed,
+  VectorX solve(const Waypoint& waypoint, const std::string& field, PoseSeed& seed,
                 std::vector<std::string>& notes) const;
   IkResult ask(const IkRequest& question, const std::string& field) const;
   void noteAssumedLimits(const PlanTrajectory::Request& request, std::vector<std::string>& notes) const;

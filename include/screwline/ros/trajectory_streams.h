@@ -14,9 +14,9 @@ namespace ros_bridge {
 /// Where what trajectory_generator says goes: its publishers, or a test.
 struct GeneratorSinks {
   std::function<void(const trajectory_msgs::JointTrajectory&)> trajectory;
-  std::function<void(const TrajectoryMetricsMsg&)> metrics;
+  std::function<void(const TrajectoryMetrics&)> metrics;
   std::function<void(const sensor_msgs::JointState&)> state;
-  std::function<void(const TimeScalingMsg&)> scaling;
+  std::function<void(const TimeScaling&)> scaling;
   std::function<void(const geometry_msgs::PoseStamped&)> pose;
   std::function<void(const geometry_msgs::TwistStamped&)> twist;
 };
@@ -37,7 +37,7 @@ class TrajectoryStreams {
   GeneratorSinks sinks_;
   Matrix6X J_;
   sensor_msgs::JointState state_;
-  TimeScalingMsg scaling_;
+  TimeScaling scaling_;
   geometry_msgs::PoseStamped pose_;
   geometry_msgs::TwistStamped twist_;
 };

@@ -6,7 +6,7 @@
 
 #include "screwline/spatial/pose.h"
 #include "screwline/trajectory/piecewise_polynomial.h"
-#include "screwline/trajectory/time_scaling.h"
+#include "screwline/trajectory/time_law.h"
 
 namespace screwline {
 
@@ -42,7 +42,7 @@ class JointTrajectory {
   JointTrajectory() = default;  ///< No joints, no duration.
 
   /// start + delta s(t / duration). @pre equal sizes, duration >= 0 (at 0 it rests at start).
-  static JointTrajectory scaled(VectorX start, VectorX delta, TimeScaling scaling, double duration);
+  static JointTrajectory scaled(VectorX start, VectorX delta, TimeLaw scaling, double duration);
   static JointTrajectory piecewise(PiecewisePolynomial motion);
   /// @pre equal sizes, duration >= 0.
   static JointTrajectory sinusoidal(Sinusoid motion, double duration);
@@ -66,7 +66,7 @@ class JointTrajectory {
   JointExtrema extrema(int joint) const;
 
   /// The common scaling s(tau), nullptr where the motion has none.
-  const TimeScaling* scaling() const { return form_ == Form::kScaled ? &scaling_ : nullptr; }
+  const TimeLaw* scaling() const { return form_ == Form::kScaled ? &scaling_ : nullptr; }
   /// The polynomial pieces, nullptr in the other forms.
   const PiecewisePolynomial* pieces() const { return form_ == Form::kPiecewise ? &pieces_ : nullptr; }
 
@@ -85,7 +85,7 @@ class JointTrajectory {
   double inverse_duration_ = 0.0;  ///< 0 for a motion that takes no time: it rests.
   VectorX start_;
   VectorX delta_;
-  TimeScaling scaling_ = TimeScaling::rectangular();
+  TimeLaw scaling_ = TimeLaw::rectangular();
   PiecewisePolynomial pieces_;
   std::vector<double> inverse_lengths_;
   Sinusoid sinusoid_;

@@ -11,7 +11,7 @@
 
 namespace screwline {
 
-struct Waypoint {
+struct PathPoint {
   VectorX position;      ///< [rad or m], n values.
   VectorX velocity;      ///< Empty: not given.
   VectorX acceleration;  ///< Empty: not given.
@@ -20,7 +20,7 @@ struct Waypoint {
 
 struct PlanRequest {
   std::string profile;
-  std::vector<Waypoint> waypoints;
+  std::vector<PathPoint> waypoints;
   double duration = 0.0;                                   ///< [s] 0: the shortest that the limits allow.
   double sample_period = 0.0;                              ///< [s] 0: 0.01. Only bounds the number of samples here.
   Limits limits;                                           ///< Of n joints; decides n.
@@ -44,14 +44,14 @@ struct ParameterInfo {
   bool per_joint = false;
 };
 
-struct ProfileInfo {
+struct ProfileSummary {
   std::string name;
   std::string meaning;
   std::vector<ParameterInfo> parameters;
 };
 
 /// Every profile that plan() knows, in the order of the documentation.
-std::vector<ProfileInfo> listProfiles();
+std::vector<ProfileSummary> listProfiles();
 
 /// A motion through the waypoints that keeps the limits, proved by exact extrema (verify.h) before it is returned.
 /// Orders that a profile makes infinite (acceleration of rectangular, jerk of cubic) are not held; notes say so.

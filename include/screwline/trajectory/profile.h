@@ -25,7 +25,7 @@ struct ProfileContext {
   double duration = 0.0;  ///< From the request or the last waypoint's time; 0: free.
 
   int joints() const { return limits.joints(); }
-  const std::vector<Waypoint>& waypoints() const { return request.waypoints; }
+  const std::vector<PathPoint>& waypoints() const { return request.waypoints; }
   std::optional<double> parameter(const std::string& name) const;
   double parameter(const std::string& name, double fallback) const { return parameter(name).value_or(fallback); }
 };
@@ -41,7 +41,7 @@ using ProfileBuilder = ProfileDraft (*)(const ProfileContext& context);
 
 /// One row of the registry. To add a profile: write a builder, add a row in registry.cpp.
 struct Profile {
-  ProfileInfo info;
+  ProfileSummary info;
   std::size_t fewest_waypoints = 2;
   std::size_t most_waypoints = std::numeric_limits<std::size_t>::max();
   bool via_times = false;  ///< Whether the instant of an intermediate waypoint may be given.
@@ -65,7 +65,7 @@ inline double noLessThanShortest(double duration) {
 
 /// One scaling for all joints, from the first waypoint to the last, in the given duration or the shortest that the
 /// finite orders allow.
-ProfileDraft scaleBetweenEnds(const ProfileContext& context, const TimeScaling& scaling);
+ProfileDraft scaleBetweenEnds(const ProfileContext& context, const TimeLaw& scaling);
 
 /// The trapezoid for a displacement within limits: blend fraction and duration.
 struct BlendedMove {

@@ -12,15 +12,15 @@ namespace screwline {
 using TimedBuilder = std::function<JointTrajectory(const std::vector<double>& times)>;
 
 /// The waypoints' positions as columns, n x N.
-MatrixX positionsOf(const std::vector<Waypoint>& waypoints);
+MatrixX positionsOf(const std::vector<PathPoint>& waypoints);
 
 /// True where no waypoint differs from the first.
-bool nothingMoves(const std::vector<Waypoint>& waypoints);
+bool nothingMoves(const std::vector<PathPoint>& waypoints);
 
 /// How long each segment takes beside the others: its own shortest rest-to-rest 3-4-5 motion under the limits (its
 /// length where nothing is limited). A repeated waypoint counts as the shortest segment above a thousandth of the
 /// longest, so that no segment has no time.
-std::vector<double> segmentWeights(const std::vector<Waypoint>& waypoints, const Limits& limits);
+std::vector<double> segmentWeights(const std::vector<PathPoint>& waypoints, const Limits& limits);
 
 /// The least duration found at which `stretch` (tightestUse) is at most 1; 0 where none is. Not monotone in general
 /// (given end velocities), so: a scan upwards in steps of 5 %, then bisection to 1e-12.

@@ -1,4 +1,4 @@
-#include "screwline/trajectory/time_scaling.h"
+#include "screwline/trajectory/time_law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@
 namespace screwline {
 namespace {
 
-TimeScaling onePiece(const Polynomial& polynomial, int continuity) {
+TimeLaw onePiece(const Polynomial& polynomial, int continuity) {
   PiecewisePolynomial pieces(1, polynomial.degree(), {0.0, 1.0}, continuity);
   pieces.setPiece(0, 0, polynomial);
-  return TimeScaling(std::move(pieces));
+  return TimeLaw(std::move(pieces));
 }
 
 double quintic345(double tau) {
@@ -35,30 +35,30 @@ JointExtrema cycloidalExtrema() {
 
 }  // namespace
 
-TimeScaling TimeScaling::rectangular() {
+TimeLaw TimeLaw::rectangular() {
   return onePiece({{0.0, 1.0}}, 0);
 }
-TimeScaling TimeScaling::cubic() {
+TimeLaw TimeLaw::cubic() {
   return onePiece({{0.0, 0.0, 3.0, -2.0}}, 1);
 }
-TimeScaling TimeScaling::polynomial345() {
+TimeLaw TimeLaw::polynomial345() {
   return onePiece({{0.0, 0.0, 0.0, 10.0, -15.0, 6.0}}, 2);
 }
-TimeScaling TimeScaling::polynomial4567() {
+TimeLaw TimeLaw::polynomial4567() {
   return onePiece({{0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0}}, 3);
 }
 
-TimeScaling TimeScaling::cycloidal() {
-  TimeScaling scaling;
+TimeLaw TimeLaw::cycloidal() {
+  TimeLaw scaling;
   scaling.cycloidal_ = true;
   scaling.extrema_ = cycloidalExtrema();
   return scaling;
 }
 
-TimeScaling TimeScaling::trapezoidal(double blend_fraction) {
+TimeLaw TimeLaw::trapezoidal(double blend_fraction) {
   const double b = blend_fraction;
   if (!(b > 0.0 && b <= 0.5)) {
-    throw InputError(ErrorCode::kInvalidGoal, "blend_fraction is " + number(b) + ", it must lie in (0, 0.5]");
+    throw InputError(AnswerCode::kInvalidGoal, "blend_fraction is " + number(b) + ", it must lie in (0, 0.5]");
   }
   const double in_blend = 0.5 * b / (1.0 - b);  // s at the end of the first parabola.
   const bool triangle = b == 0.5;
@@ -69,21 +69,21 @@ TimeScaling TimeScaling::trapezoidal(double blend_fraction) {
   pieces.setPiece(0, 0, {{0.0, 0.0, in_blend}});
   if (!triangle) pieces.setPiece(1, 0, {{in_blend, 1.0 - 2.0 * in_blend}});
   pieces.setPiece(last, 0, {{1.0 - in_blend, 2.0 * in_blend, -in_blend}});
-  return TimeScaling(std::move(pieces));
+  return TimeLaw(std::move(pieces));
 }
 
-TimeScaling TimeScaling::via6(double via_s, double via_tau) {
+TimeLaw TimeLaw::via6(double via_s, double via_tau) {
   if (!(via_tau > 0.0 && via_tau < 1.0)) {
-    throw InputError(ErrorCode::kInvalidGoal,
+    throw InputError(AnswerCode::kInvalidGoal,
                      "the via instant tau is " + number(via_tau) + ", it must lie inside (0, 1)");
   }
   if (!std::isfinite(via_s))
-    throw InputError(ErrorCode::kInvalidGoal, "the via value S is " + number(via_s) + ", not finite");
+    throw InputError(AnswerCode::kInvalidGoal, "the via value S is " + number(via_s) + ", not finite");
   const double k = (via_s - quintic345(via_tau)) / std::pow(via_tau * (1.0 - via_tau), 3);
   return onePiece({{0.0, 0.0, 0.0, 10.0 + k, -15.0 - 3.0 * k, 6.0 + 3.0 * k, -k}}, 2);
 }
 
-TimeScaling::TimeScaling(PiecewisePolynomial pieces)
+TimeLaw::TimeLaw(PiecewisePolynomial pieces)
     : pieces_(std::move(pieces)), extrema_(pieces_.extrema(0)), continuity_(pieces_.continuity) {
   for (std::size_t segment = 0; segment < pieces_.segments(); ++segment) {
     Piece piece;
@@ -100,13 +100,13 @@ TimeScaling::TimeScaling(PiecewisePolynomial pieces)
   }
 }
 
-const TimeScaling::Piece& TimeScaling::find(double tau) const {
+const TimeLaw::Piece& TimeLaw::find(double tau) const {
   std::size_t k = table_.size() - 1;
   while (k > 0 && tau < table_[k].start) --k;
   return table_[k];
 }
 
-ScalingSample TimeScaling::at(double tau) const {
+ScalingSample TimeLaw::at(double tau) const {
   tau = std::min(std::max(tau, 0.0), 1.0);
   if (cycloidal_) {
     const double sine = std::sin(kTwoPi * tau);
@@ -128,11 +128,11 @@ ScalingSample TimeScaling::at(double tau) const {
   return {out[0], out[1], out[2], out[3]};
 }
 
-bool TimeScaling::isMonotone() const {
+bool TimeLaw::isMonotone() const {
   return extrema_.travel <= 1.0 + 1e-12;
 }
 
-std::vector<double> TimeScaling::breaks() const {
+std::vector<double> TimeLaw::breaks() const {
   if (cycloidal_ || pieces_.breaks.size() < 3) return {};
   return {pieces_.breaks.begin() + 1, pieces_.breaks.end() - 1};
 }

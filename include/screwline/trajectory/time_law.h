@@ -1,5 +1,5 @@
-#ifndef SCREWLINE_TRAJECTORY_TIME_SCALING_H
-#define SCREWLINE_TRAJECTORY_TIME_SCALING_H
+#ifndef SCREWLINE_TRAJECTORY_TIME_LAW_H
+#define SCREWLINE_TRAJECTORY_TIME_LAW_H
 
 #include <utility>
 #include <vector>
@@ -19,25 +19,25 @@ struct ScalingSample {
 /// A time scaling s(tau), tau = t/T in [0, 1], s(0) = 0, s(1) = 1, with exact derivatives: piecewise polynomial or
 /// cycloidal. An immutable value. Sources: Biagiotti & Melchiorri, Trajectory Planning for Automatic Machines and
 /// Robots, ch. 2 and 3; the degree-6 via polynomial is s345(tau) + k tau^3 (1-tau)^3.
-class TimeScaling {
+class TimeLaw {
  public:
-  static TimeScaling rectangular();     ///< Constant velocity: it steps at both ends.
-  static TimeScaling cubic();           ///< Acceleration steps by 6 at both ends.
-  static TimeScaling polynomial345();   ///< Also the minimum-jerk motion; zero acceleration at the ends.
-  static TimeScaling polynomial4567();  ///< Zero acceleration and jerk at the ends.
-  static TimeScaling cycloidal();       ///< tau - sin(2 pi tau) / (2 pi).
-  static TimeScaling minimumJerk() { return polynomial345(); }
+  static TimeLaw rectangular();     ///< Constant velocity: it steps at both ends.
+  static TimeLaw cubic();           ///< Acceleration steps by 6 at both ends.
+  static TimeLaw polynomial345();   ///< Also the minimum-jerk motion; zero acceleration at the ends.
+  static TimeLaw polynomial4567();  ///< Zero acceleration and jerk at the ends.
+  static TimeLaw cycloidal();       ///< tau - sin(2 pi tau) / (2 pi).
+  static TimeLaw minimumJerk() { return polynomial345(); }
 
   /// Parabola, line, parabola: acceleration over the fraction b of the time at each end.
   /// @param blend_fraction b in (0, 1/2]. @throws InputError outside it.
-  static TimeScaling trapezoidal(double blend_fraction);
+  static TimeLaw trapezoidal(double blend_fraction);
 
   /// Degree 6 through s = via_s at tau = via_tau, with zero velocity and acceleration at both ends.
   /// @throws InputError where via_tau is not inside (0, 1) or a value is not finite.
-  static TimeScaling via6(double via_s, double via_tau = 0.5);
+  static TimeLaw via6(double via_s, double via_tau = 0.5);
 
   /// From pieces of one joint with breaks from 0 to 1; the way in for scalings to come.
-  explicit TimeScaling(PiecewisePolynomial pieces);
+  explicit TimeLaw(PiecewisePolynomial pieces);
 
   /// s and derivatives at tau; outside [0, 1] those of the nearer end. At tau = 0 and 1 and at a breakpoint a stepping
   /// derivative has its value from inside (at an interior breakpoint: of the later piece). Does not allocate.
@@ -63,7 +63,7 @@ class TimeScaling {
     std::array<std::array<double, 4>, Polynomial::kMaxDegree + 1> rows{};
   };
 
-  TimeScaling() = default;
+  TimeLaw() = default;
   const Piece& find(double tau) const;
 
   PiecewisePolynomial pieces_;
@@ -75,4 +75,4 @@ class TimeScaling {
 
 }  // namespace screwline
 
-#endif  // SCREWLINE_TRAJECTORY_TIME_SCALING_H
+#endif  // SCREWLINE_TRAJECTORY_TIME_LAW_H
