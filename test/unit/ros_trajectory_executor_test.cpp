@@ -27,7 +27,9 @@ JointTrajectory move(const VectorX& from, const VectorX& to, double duration) {
   return JointTrajectory::scaled(from, to - from, TimeLaw::polynomial345(), duration);
 }
 
-VectorX pair(double a, double b) { return Eigen::Vector2d(a, b); }
+VectorX pair(double a, double b) {
+  return Eigen::Vector2d(a, b);
+}
 
 struct Stream {
   FakeClock clock;
