@@ -47,7 +47,7 @@ std::optional<IkAnswer> SolutionBuilder::build(const Candidate& candidate) const
   const Turned turned =
       chooseTurns(chain_, solution.position, seed_, hasSeed() || !candidate.free.empty(), request_.ignore_limits, band);
   solution.position = turned.q;
-  measure(solution, candidate.merged);
+  verify(solution);  // Full turns leave the Jacobian as it was.
   solution.within_limits = turned.within_limits;
   if (solution.position_error > kSolutionTolerance || solution.orientation_error > kSolutionTolerance)
     return std::nullopt;
@@ -67,20 +67,23 @@ bool SolutionBuilder::seedSolves() const {
   return request_.ignore_limits || (chain_.clamped(seed_) - seed_).cwiseAbs().maxCoeff() <= kLeastBand;
 }
 
-void SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
-  Matrix6X J(6, chain_.size());
-  const Pose actual = geometricJacobian(chain_, solution.position, J);
-  const TaskError error = taskError(task_, request_.target, actual);
-  const MatrixX task_jacobian = task_.select(J);
-  const TaskRank rank = taskRank(task_jacobian);
-  const double largest = rank.singular_values.size() > 0 ? rank.singular_values[0] : 0.0;
-  const double smallest = rank.singular_values.size() > 0 ? rank.singular_values.minCoeff() : 0.0;
+/// Errors by forward kinematics, and the distance to the seed.
+void SolutionBuilder::verify(IkAnswer& solution) const {
+  const TaskError error = taskError(task_, request_.target, forwardKinematics(chain_, solution.position));
   solution.position_error = error.position;
   solution.orientation_error = error.orientation;
-  solution.joint_error = error.norm() / std::max({smallest, kRankTolerance * largest, 1e-12});
-  solution.manipulability = manipulability(task_jacobian);
-  solution.singular = merged || solution.self_motion.rows() > 0 || rank.rank < std::min(task_.size(), chain_.size());
   solution.distance = (solution.position - seed_).norm();
+}
+
+void SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
+  verify(solution);
+  Matrix6X J(6, chain_.size());
+  geometricJacobian(chain_, solution.position, J);
+  const VectorX sigma = singularValues(task_.select(J));
+  const double smallest = std::max({sigma.minCoeff(), kRankTolerance * sigma.maxCoeff(), 1e-12});
+  solution.joint_error = std::hypot(solution.position_error, solution.orientation_error) / smallest;
+  solution.manipulability = sigma.prod();
+  solution.singular = merged || solution.self_motion.rows() > 0 || rankOf(sigma, jacobianNoise(J)) < sigma.size();
   if (solution.self_motion.rows() == 0) solution.self_motion.resize(0, chain_.size());
 }
 

@@ -28,6 +28,7 @@ class SolutionBuilder {
 
  private:
   void measure(IkAnswer& solution, bool merged) const;
+  void verify(IkAnswer& solution) const;
 
   const SerialChain& chain_;
   const Task& task_;

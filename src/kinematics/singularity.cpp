@@ -59,8 +59,12 @@ TaskRank taskRank(const MatrixX& task_jacobian, double noise) {
   return result;
 }
 
+VectorX singularValues(const MatrixX& task_jacobian) {
+  return Eigen::JacobiSVD<MatrixX>(task_jacobian).singularValues();
+}
+
 double manipulability(const MatrixX& task_jacobian) {
-  return Eigen::JacobiSVD<MatrixX>(task_jacobian).singularValues().prod();
+  return singularValues(task_jacobian).prod();
 }
 
 SingularityAnalysis analyzeSingularity(const SerialChain& chain, const ConstVectorRef& q, const Task& task) {

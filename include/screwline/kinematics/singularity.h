@@ -41,6 +41,9 @@ double jacobianNoise(const Matrix6X& J);
 /// Decomposition of a task Jacobian (m x n). Allocates.
 TaskRank taskRank(const MatrixX& task_jacobian, double noise = 0.0);
 
+/// Singular values alone, min(m, n) of them, descending: a fraction of taskRank()'s time.
+VectorX singularValues(const MatrixX& task_jacobian);
+
 /// Product of the singular values: sqrt(det(J J^T)) (Yoshikawa 1985).
 double manipulability(const MatrixX& task_jacobian);
 
