@@ -63,6 +63,14 @@ check_installed_launch() {
 
 # A user's workspace (hidden, as the install space is): the sources linked into src/, `catkin_make install`. Debug, so that assertions are compiled too.
 check_catkin_make() {
+  local status=0
+  build_workspace || status=$?
+  # A link to the package inside of it is a loop for rosrun's search.
+  rm -f "$BUILD/.workspace/src/screwline"
+  return "$status"
+}
+
+build_workspace() {
   local workspace=$BUILD/.workspace
   rm -rf "$workspace/install"
   mkdir -p "$workspace/src"
