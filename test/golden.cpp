@@ -292,7 +292,7 @@ const std::vector<std::string>& names() {
   return all;
 }
 
-const File& load(const std::string& name) {
+const File& load(std::string name) {
   static std::map<std::string, std::unique_ptr<File>> files;
   std::unique_ptr<File>& file = files[name];
   if (file) return *file;
