@@ -1,6 +1,6 @@
 #include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include <algorithm>
 #include <exception>
@@ -45,11 +45,16 @@ void broadcastRobot(ros::NodeHandle& private_node) {
   const ServedRobot robot = makeRobot(source, params.robot);
 
   tf2_ros::StaticTransformBroadcaster static_tf;
-  tf2_ros::TransformBroadcaster tf;
+  // With a queue of its own: tf2_ros's holds 100 messages, of which a busy machine drops some.
+  const ros::Publisher tf = node.advertise<tf2_msgs::TFMessage>(kTfTopic, kQueue);
   const ros::Publisher markers = private_node.advertise<visualization_msgs::MarkerArray>(kMarkersTopic, kQueue);
   const BroadcasterSinks sinks{
       [&](const geometry_msgs::TransformStamped& transform) { static_tf.sendTransform(transform); },
-      [&](const std::vector<geometry_msgs::TransformStamped>& transforms) { tf.sendTransform(transforms); },
+      [&](const std::vector<geometry_msgs::TransformStamped>& transforms) {
+        tf2_msgs::TFMessage message;
+        message.transforms = transforms;
+        tf.publish(message);
+      },
       [&](const visualization_msgs::MarkerArray& array) { markers.publish(array); }};
   FrameBroadcaster broadcaster(robot, linkNames(source.description), params, sinks);
   broadcaster.start(ros::Time::now());

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 """frame_broadcaster beside robot_state_publisher: frames on tf, markers, what it refuses to start with."""
 import os
+import signal
 import subprocess
 import sys
 import unittest
+import xmlrpc.client
 
 import numpy as np
 import rosgraph
@@ -14,6 +16,7 @@ import tf2_ros
 import yaml
 from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -155,6 +158,28 @@ class FrameBroadcaster(unittest.TestCase):
             rospy.sleep(0.2)
             shown = {marker.ns for marker in self.markers[-1].markers if marker.action == Marker.ADD}
             self.assertEqual('lost_directions' in shown, lost, elbow)
+
+    def test_no_frame_is_lost_while_the_node_gets_no_time(self):
+        rospy.sleep(0.3)
+        told = []
+        listener = rospy.Subscriber('/tf', TFMessage, told.append, queue_size=None, tcp_nodelay=True)
+        while listener.get_num_connections() < 2:
+            rospy.sleep(0.05)
+        pid = xmlrpc.client.ServerProxy(rosgraph.Master('/test').lookupNode('/frame_broadcaster')).getPid('/test')[2]
+        os.kill(pid, signal.SIGSTOP)
+        try:
+            stamps = []
+            for i in range(600):
+                stamps.append(self.publish([0.001 * i] * 6))
+                rospy.sleep(0.002)
+        finally:
+            os.kill(pid, signal.SIGCONT)
+        self.frame('screwline/tool', stamps[-1])
+        rospy.sleep(0.5)
+        listener.unregister()
+        found = {transform.header.stamp for message in told for transform in message.transforms
+                 if transform.child_frame_id == 'screwline/tool'}
+        self.assertEqual(len(set(stamps) - found), 0)
 
     def test_bad_messages_are_passed_over(self):
         self.states.publish(JointState(name=['q1'], position=[0.0, 1.0]))

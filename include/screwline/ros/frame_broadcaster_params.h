@@ -15,6 +15,7 @@ constexpr char kJointStatesTopic[] = "joint_states";
 constexpr char kJointTrajectoryTopic[] = "joint_trajectory";
 constexpr char kTargetTopic[] = "target";
 constexpr char kMarkersTopic[] = "markers";
+constexpr char kTfTopic[] = "/tf";
 
 /// How markers are drawn.
 struct MarkerParams {
