@@ -108,7 +108,7 @@ void InverseKinematics::Implementation::keep(const IkRequest& request, const std
       ++result.outside_limits;
       continue;
     }
-    if (!matchesBranch(solution->branch, request.branch)) continue;
+    if (!request.branch.empty() && !matchesBranch(solution->branch, request.branch)) continue;
     if (chain.size() > task.size()) describeRedundancy(chain, task, *solution);
     if (!request.all_turns) {
       result.solutions.push_back(*solution);

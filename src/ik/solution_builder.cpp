@@ -6,6 +6,7 @@
 #include "continuum.h"
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/kinematics/singularity.h"
+#include "task_conditioning.h"
 #include "turns.h"
 
 namespace screwline {
@@ -15,8 +16,8 @@ constexpr double kGoodEnough = 1e-13;  // [m, rad] errors that Newton steps woul
 constexpr double kLeastBand = 1e-9;    // Limits are decided no finer than this, and no coarser than kMostBand.
 constexpr double kMostBand = 1e-6;
 
-bool isSolution(const TaskError& error) {
-  return error.position <= kSolutionTolerance && error.orientation <= kSolutionTolerance;
+bool isSolution(const IkAnswer& solution) {
+  return solution.position_error <= kSolutionTolerance && solution.orientation_error <= kSolutionTolerance;
 }
 
 }  // namespace
@@ -39,51 +40,56 @@ std::optional<IkAnswer> SolutionBuilder::build(const Candidate& candidate) const
     solution.self_motion_lower = continuum.lower;
     solution.self_motion_upper = continuum.upper;
   }
-  TaskError error = taskError(task_, request_.target, forwardKinematics(chain_, solution.position));
-  if (error.norm() > kGoodEnough) error = polish(chain_, task_, request_.target, solution.position);
-  if (!isSolution(error)) return std::nullopt;
+  if (verify(solution) > kGoodEnough) {
+    polish(chain_, task_, request_.target, solution.position);
+    verify(solution);
+  }
+  if (!isSolution(solution)) return std::nullopt;
   measure(solution, candidate.merged);
   const double band = std::clamp(solution.joint_error, kLeastBand, kMostBand);
   const Turned turned =
       chooseTurns(chain_, solution.position, seed_, hasSeed() || !candidate.free.empty(), request_.ignore_limits, band);
-  solution.position = turned.q;
-  verify(solution);  // Full turns leave the Jacobian as it was.
   solution.within_limits = turned.within_limits;
-  if (solution.position_error > kSolutionTolerance || solution.orientation_error > kSolutionTolerance)
-    return std::nullopt;
+  // Full turns and what is put on a limit leave the Jacobian as it was, to rounding; the pose is looked at again.
+  if (turned.q != solution.position) {
+    solution.position = turned.q;
+    verify(solution);
+  }
+  if (!isSolution(solution)) return std::nullopt;
   return solution;
 }
 
 IkAnswer SolutionBuilder::describe(const VectorX& q) const {
   IkAnswer solution;
   solution.position = q;
+  verify(solution);
   measure(solution, false);
   solution.within_limits = chooseTurns(chain_, q, q, true, false, kLeastBand).within_limits;
   return solution;
 }
 
 bool SolutionBuilder::seedSolves() const {
-  if (!hasSeed() || !isSolution(taskError(task_, request_.target, forwardKinematics(chain_, seed_)))) return false;
+  if (!hasSeed()) return false;
+  const TaskError error = taskError(task_, request_.target, forwardKinematics(chain_, seed_));
+  if (error.position > kSolutionTolerance || error.orientation > kSolutionTolerance) return false;
   return request_.ignore_limits || (chain_.clamped(seed_) - seed_).cwiseAbs().maxCoeff() <= kLeastBand;
 }
 
-/// Errors by forward kinematics, and the distance to the seed.
-void SolutionBuilder::verify(IkAnswer& solution) const {
-  const TaskError error = taskError(task_, request_.target, forwardKinematics(chain_, solution.position));
+/// Errors by forward kinematics, with the Jacobian, and the distance to the seed. Returns both errors' norm.
+double SolutionBuilder::verify(IkAnswer& solution) const {
+  const TaskError error = taskError(task_, request_.target, geometricJacobian(chain_, solution.position, jacobian_));
   solution.position_error = error.position;
   solution.orientation_error = error.orientation;
   solution.distance = (solution.position - seed_).norm();
+  return error.norm();
 }
 
+/// @pre jacobian_ is the solution's.
 void SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
-  verify(solution);
-  Matrix6X J(6, chain_.size());
-  geometricJacobian(chain_, solution.position, J);
-  const VectorX sigma = singularValues(task_.select(J));
-  const double smallest = std::max({sigma.minCoeff(), kRankTolerance * sigma.maxCoeff(), 1e-12});
-  solution.joint_error = std::hypot(solution.position_error, solution.orientation_error) / smallest;
-  solution.manipulability = sigma.prod();
-  solution.singular = merged || solution.self_motion.rows() > 0 || rankOf(sigma, jacobianNoise(J)) < sigma.size();
+  const TaskConditioning conditioning = conditioningOf(task_.select(jacobian_), jacobianNoise(jacobian_));
+  solution.joint_error = std::hypot(solution.position_error, solution.orientation_error) / conditioning.smallest;
+  solution.manipulability = conditioning.manipulability;
+  solution.singular = merged || solution.self_motion.rows() > 0 || !conditioning.full_rank;
   if (solution.self_motion.rows() == 0) solution.self_motion.resize(0, chain_.size());
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "candidate.h"
+#include "screwline/kinematics/jacobian.h"
 
 namespace screwline {
 
@@ -28,12 +29,13 @@ class SolutionBuilder {
 
  private:
   void measure(IkAnswer& solution, bool merged) const;
-  void verify(IkAnswer& solution) const;
+  double verify(IkAnswer& solution) const;
 
   const SerialChain& chain_;
   const Task& task_;
   const IkRequest& request_;
   VectorX seed_;
+  mutable Matrix6X jacobian_;  ///< Of the configuration verified last. A builder serves one request, in one thread.
 };
 
 /// Candidates with those that are the same within kSameSolution joined into one, marked merged.
