@@ -2,12 +2,11 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
-#include <algorithm>
-#include <exception>
 #include <string>
 
 #include "screwline/exception.h"
 #include "screwline/ros/frame_broadcaster.h"
+#include "screwline/ros/node_main.h"
 
 namespace {
 
@@ -38,9 +37,7 @@ ros::Subscriber listen(ros::NodeHandle& node, const std::string& topic, FrameBro
 
 void broadcastRobot(ros::NodeHandle& private_node) {
   ros::NodeHandle node;
-  XmlRpc::XmlRpcValue values;
-  private_node.getParam("", values);
-  const BroadcasterParams params = readBroadcasterParams(values);
+  const BroadcasterParams params = readBroadcasterParams(privateParameters(private_node));
   const RobotSource source = findRobot(private_node);
   const ServedRobot robot = makeRobot(source, params.robot);
 
@@ -72,21 +69,8 @@ void broadcastRobot(ros::NodeHandle& private_node) {
   ros::spin();
 }
 
-std::string inOneLine(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, kFrameBroadcasterNode);
-  ros::NodeHandle private_node("~");  // The console is silent once the last handle is gone.
-  try {
-    broadcastRobot(private_node);
-    return 0;
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM("the robot can not be broadcast: " << inOneLine(error.what()));
-    return 1;
-  }
+  return runNode(argc, argv, kFrameBroadcasterNode, "the robot can not be broadcast", broadcastRobot);
 }

@@ -1,10 +1,9 @@
 #include <ros/ros.h>
 
-#include <algorithm>
-#include <exception>
+#include <functional>
 #include <string>
-#include <thread>
 
+#include "screwline/ros/node_main.h"
 #include "screwline/ros/tf_lookup.h"
 #include "screwline/ros/trajectory_generator.h"
 
@@ -30,18 +29,16 @@ GeneratorSinks publishers(ros::NodeHandle& node) {
           publisher<geometry_msgs::TwistStamped>(node, kTwistStream)};
 }
 
-void generate(ros::NodeHandle& node, ros::NodeHandle& private_node) {
-  XmlRpc::XmlRpcValue values;
-  private_node.getParam("", values);
-  const TrajectoryParams params = readTrajectoryParams(values);
+void generate(ros::NodeHandle& private_node) {
+  ros::NodeHandle node;
+  const TrajectoryParams params = readTrajectoryParams(privateParameters(private_node));
   const ServedRobot robot = makeRobot(findRobot(private_node), params.robot);
   const MotionClock clock = ros::Time::isSimTime() ? rosMotionClock() : wallMotionClock();
   TrajectoryGenerator generator(robot, params, tfLookup(robot.chain->baseLink()), clock, publishers(node));
   generator.advertise(private_node);
   generator.executor().start();
 
-  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-  ros::AsyncSpinner spinner(params.threads > 0 ? static_cast<unsigned>(params.threads) : cores);
+  ros::AsyncSpinner spinner = makeSpinner(params.threads);
   spinner.start();
   ROS_INFO_STREAM("moving chain '" << robot.chain->name() << "' of " << robot.chain->size() << " joints");
   ros::waitForShutdown();
@@ -49,22 +46,8 @@ void generate(ros::NodeHandle& node, ros::NodeHandle& private_node) {
   generator.executor().shutdown();
 }
 
-std::string inOneLine(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, kTrajectoryGeneratorNode);
-  ros::NodeHandle node;  // The console is silent once the last handle is gone.
-  ros::NodeHandle private_node("~");
-  try {
-    generate(node, private_node);
-    return 0;
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM("the robot can not be moved: " << inOneLine(error.what()));
-    return 1;
-  }
+  return runNode(argc, argv, kTrajectoryGeneratorNode, "the robot can not be moved", generate);
 }

@@ -9,8 +9,8 @@ import unittest
 import numpy as np
 import rospy
 import rostest
-from kinematics_server_support import (TASK_OF, Server, golden, golden_names, golden_urdf, matrix, pose_matrix,
-                                       pose_message, state)
+from data_support import TASK_OF, golden, golden_names
+from kinematics_server_support import Server, golden_urdf, matrix, pose_matrix, pose_message, state
 from geometry_msgs.msg import Point, PoseStamped, Twist, TwistStamped, Vector3, Wrench, WrenchStamped
 from screwline.srv import ComputeJacobianRequest, ComputeStaticsRequest, ComputeVelocityRequest
 from std_msgs.msg import Header
@@ -173,7 +173,7 @@ class Checks:
         self.assertTrue(answer.ik_method)
 
     def check(self, server, data, checks):
-        self.addCleanup(server.stop)
+        self.addCleanup(server.shut_down)
         turning = [joint['type'] != 'prismatic' for joint in data['model']['joints']]
         with self.subTest('describe'):
             self.check_describe(server, data)
@@ -220,7 +220,7 @@ class TheCheckerItselfFails(Checks, unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
-        cls.server.stop()
+        cls.server.shut_down()
 
     def fails(self, check, path):
         case = copy.deepcopy(self.data['cases'][0])

@@ -61,7 +61,7 @@ class WithServer(unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
-        cls.server.stop()
+        cls.server.shut_down()
 
     def ask(self, service, **fields):
         return self.server.ask(service, **fields)

@@ -7,7 +7,9 @@ import unittest
 
 import rospy
 import rostest
-from kinematics_server_support import Server, read_text, robot_config
+from data_support import read_text, robot_config
+from kinematics_server_support import Server
+from node_support import assert_refused
 
 NUMBERS = itertools.count()
 PLANAR = read_text('urdf', 'rr_planar.urdf')
@@ -34,14 +36,7 @@ def snake(joints):
 
 class Refused(unittest.TestCase):
     def refused(self, *words, urdf=PLANAR, params=None, limits=None):
-        server = Server('refused%d' % next(NUMBERS), urdf, params, limits)
-        status, lines, seconds = server.ended()
-        fatal = [line for line in lines if 'FATAL' in line]
-        self.assertEqual(status, 1, lines)
-        self.assertEqual(len(fatal), 1, lines)
-        self.assertLess(seconds, 5.0)
-        for word in words:
-            self.assertIn(word, fatal[0])
+        assert_refused(self, Server('refused%d' % next(NUMBERS), urdf, params, limits), words)
 
     def test_no_robot_description(self):
         self.refused('robot_description', urdf=None)
@@ -109,7 +104,7 @@ class Refused(unittest.TestCase):
 class Served(unittest.TestCase):
     def served(self, urdf, params=None, limits=None):
         server = Server('served%d' % next(NUMBERS), urdf, params, limits)
-        self.addCleanup(server.stop)
+        self.addCleanup(server.shut_down)
         return server.ask('describe')
 
     def test_choice_among_chains(self):

@@ -1,60 +1,26 @@
-"""What the rostests of kinematics_server share: the node as a process of its own, its services, robots, golden data."""
-
-import functools
+"""What the rostests of kinematics_server share: the server, robots of golden models, messages as matrices."""
 import math
-import os
-import subprocess
-import time
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
-import roslib.packages
-import rospy
-import yaml
 from geometry_msgs.msg import Pose
-from screwline.msg import ErrorCode
+from node_support import ServedNode
 from screwline.srv import (AnalyzeSingularity, ComputeFK, ComputeIK, ComputeJacobian, ComputeStatics, ComputeVelocity,
                            Describe)
 from sensor_msgs.msg import JointState
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-GOLDEN = os.path.join(ROOT, 'test', 'data', 'golden')
-SERVICES = {
-    'describe': Describe,
-    'compute_fk': ComputeFK,
-    'compute_ik': ComputeIK,
-    'compute_jacobian': ComputeJacobian,
-    'analyze_singularity': AnalyzeSingularity,
-    'compute_statics': ComputeStatics,
-    'compute_velocity': ComputeVelocity,
-}
-TASK_OF = {
-    'xy': ['x', 'y'],
-    'xy_phi': ['x', 'y', 'rz'],
-    'xyz': ['x', 'y', 'z'],
-    'xyz_phi': ['x', 'y', 'z', 'rz'],
-    'R': ['rx', 'ry', 'rz'],
-    'pose': ['x', 'y', 'z', 'rx', 'ry', 'rz'],
-}
-SUCCESS = ErrorCode.SUCCESS
 
-
-def read_text(*parts):
-    with open(os.path.join(ROOT, *parts)) as stream:
-        return stream.read()
-
-
-@functools.lru_cache(maxsize=None)
-def golden(name):
-    return yaml.load(read_text('test', 'data', 'golden', name + '.yaml'), getattr(yaml, 'CSafeLoader', yaml.SafeLoader))
-
-
-def golden_names():
-    return sorted(name[:-len('.yaml')] for name in os.listdir(GOLDEN) if name.endswith('.yaml'))
-
-
-def robot_config(robot):
-    return yaml.safe_load(read_text('config', 'robots', robot + '.yaml'))
+class Server(ServedNode):
+    NODE = 'kinematics_server'
+    SERVICES = {
+        'describe': Describe,
+        'compute_fk': ComputeFK,
+        'compute_ik': ComputeIK,
+        'compute_jacobian': ComputeJacobian,
+        'analyze_singularity': AnalyzeSingularity,
+        'compute_statics': ComputeStatics,
+        'compute_velocity': ComputeVelocity,
+    }
 
 
 def rpy_of(rotation):
@@ -92,60 +58,6 @@ def golden_urdf(model):
     home = np.array(model['home_pose'])
     add_joint(robot, 'tool', 'fixed', 'tool0', (home[:3, 3] - place).tolist(), rpy_of(home))
     return ElementTree.tostring(robot, encoding='unicode')
-
-
-def node_path():
-    return roslib.packages.find_node('screwline', 'kinematics_server')[0]
-
-
-class Server:
-    """kinematics_server in a namespace; `params` are its private ones, `limits` those of joint_limits."""
-
-    def __init__(self, namespace, urdf=None, params=None, limits=None):
-        self.name = '/%s/kinematics_server' % namespace
-        if urdf is not None:
-            rospy.set_param('/%s/robot_description' % namespace, urdf)
-        if limits is not None:
-            rospy.set_param('/%s/robot_description_planning/joint_limits' % namespace, limits)
-        for key, value in (params or {}).items():
-            rospy.set_param('%s/%s' % (self.name, key), value)
-        self.started = time.monotonic()
-        self.process = subprocess.Popen([node_path(), '__ns:=' + namespace], stderr=subprocess.PIPE,
-                                        stdout=subprocess.DEVNULL, universal_newlines=True)
-
-    @classmethod
-    def of(cls, robot, namespace=None, **params):
-        """One of the robots of urdf/ with its configuration."""
-        config = robot_config(robot)
-        params.setdefault('task', config['task'])
-        limits = config['robot_description_planning']['joint_limits']
-        return cls(namespace or robot, read_text('urdf', robot + '.urdf'), params, limits)
-
-    def __getattr__(self, service):
-        if service not in SERVICES:
-            raise AttributeError(service)
-        address = '%s/%s' % (self.name, service)
-        rospy.wait_for_service(address, timeout=30.0)
-        proxy = rospy.ServiceProxy(address, SERVICES[service], persistent=True)
-        setattr(self, service, proxy)
-        return proxy
-
-    def ask(self, service, **fields):
-        """The answer to a good question."""
-        response = getattr(self, service)(**fields)
-        assert response.success and response.error_code == SUCCESS, (service, fields, response.message)
-        return response
-
-    def ended(self, within=10.0):
-        """Waits for the end: exit status, lines of stderr, seconds since the start."""
-        _, text = self.process.communicate(timeout=within)
-        return self.process.returncode, text.splitlines(), time.monotonic() - self.started
-
-    def stop(self):
-        if self.process.poll() is None:
-            self.process.terminate()
-        _, text = self.process.communicate(timeout=20.0)
-        return text
 
 
 def state(position, name=(), velocity=()):

@@ -9,9 +9,8 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import yaml
+from data_support import GOLDEN, ROOT, TASK_OF
 
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-GOLDEN = os.path.join(ROOT, 'test', 'data', 'golden')
 TOLERANCE = 1e-12
 GOLDEN_OF = {
     'prrr_arm': 'seed000_prrr',
@@ -28,14 +27,6 @@ GOLDEN_OF = {
     'rrr_orthogonal': 'seed004_02_rrr_dh',
     'orienting_3r': 'seed004_03_orienting_3r',
     'planar_3r': 'seed004_05_planar_3r__special',
-}
-TASK_OF = {
-    'xy': ['x', 'y'],
-    'xy_phi': ['x', 'y', 'rz'],
-    'xyz': ['x', 'y', 'z'],
-    'xyz_phi': ['x', 'y', 'z', 'rz'],
-    'R': ['rx', 'ry', 'rz'],
-    'pose': ['x', 'y', 'z', 'rx', 'ry', 'rz'],
 }
 LIMIT_KEYS = {
     'has_velocity_limits', 'max_velocity', 'has_acceleration_limits', 'max_acceleration', 'has_jerk_limits', 'max_jerk'

@@ -7,7 +7,8 @@ import unittest
 
 import rospy
 import rostest
-from kinematics_server_support import read_text
+from data_support import read_text
+from node_support import assert_refused
 from screwline.msg import ErrorCode
 from trajectory_generator_support import Generator, JointTrajectory, Recorder, wait_for
 
@@ -17,14 +18,7 @@ URDF = read_text('urdf', 'rr_planar.urdf')
 
 class Startup(unittest.TestCase):
     def refused(self, *words, urdf=URDF, **params):
-        generator = Generator('refused%d' % next(NUMBERS), urdf, params)
-        status, lines, seconds = generator.ended()
-        fatal = [line for line in lines if 'FATAL' in line]
-        self.assertEqual(status, 1, lines)
-        self.assertEqual(len(fatal), 1, lines)
-        self.assertLess(seconds, 5.0)
-        for word in words:
-            self.assertIn(word, fatal[0])
+        assert_refused(self, Generator('refused%d' % next(NUMBERS), urdf, params), words)
 
     def test_no_robot(self):
         self.refused('robot_description', urdf=None)

@@ -1,20 +1,17 @@
 """What the rostests of trajectory_generator share: the node as a process of its own, a recorder of what it streams."""
-import subprocess
 import threading
 import time
 
 import numpy as np
-import roslib.packages
 import rospy
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from kinematics_server_support import read_text, robot_config
+from node_support import ServedNode
 from screwline.msg import ErrorCode, TimeScaling, TrajectoryMetrics, Waypoint
 from screwline.srv import ExecuteTrajectory, ListProfiles, PlanTrajectory, PlanTrajectoryRequest
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-SERVICES = {'plan': PlanTrajectory, 'execute': ExecuteTrajectory, 'stop': Trigger, 'list_profiles': ListProfiles}
 TOPICS = {
     'joint_trajectory': JointTrajectory,
     'joint_states': JointState,
@@ -55,38 +52,9 @@ def wait_for(condition, seconds=20.0):
         time.sleep(0.005)
 
 
-class Generator:
-    """trajectory_generator in a namespace; `params` are its private ones."""
-
-    def __init__(self, namespace, urdf=None, params=None, limits=None):
-        self.namespace = namespace
-        self.name = '/%s/trajectory_generator' % namespace
-        if urdf is not None:
-            rospy.set_param('/%s/robot_description' % namespace, urdf)
-        if limits is not None:
-            rospy.set_param('/%s/robot_description_planning/joint_limits' % namespace, limits)
-        for key, value in (params or {}).items():
-            rospy.set_param('%s/%s' % (self.name, key), value)
-        node = roslib.packages.find_node('screwline', 'trajectory_generator')[0]
-        self.started = time.monotonic()
-        self.process = subprocess.Popen([node, '__ns:=' + namespace], stderr=subprocess.PIPE,
-                                        stdout=subprocess.DEVNULL, universal_newlines=True)
-
-    @classmethod
-    def of(cls, robot, namespace=None, **params):
-        config = robot_config(robot)
-        params.setdefault('task', config['task'])
-        limits = config['robot_description_planning']['joint_limits']
-        return cls(namespace or robot, read_text('urdf', robot + '.urdf'), params, limits)
-
-    def __getattr__(self, service):
-        if service not in SERVICES:
-            raise AttributeError(service)
-        address = '%s/%s' % (self.name, service)
-        rospy.wait_for_service(address, timeout=30.0)
-        proxy = rospy.ServiceProxy(address, SERVICES[service], persistent=True)
-        setattr(self, service, proxy)
-        return proxy
+class Generator(ServedNode):
+    NODE = 'trajectory_generator'
+    SERVICES = {'plan': PlanTrajectory, 'execute': ExecuteTrajectory, 'stop': Trigger, 'list_profiles': ListProfiles}
 
     def planned(self, profile, *positions, **fields):
         """The answer to a good plan request."""
@@ -98,16 +66,6 @@ class Generator:
         answer = self.execute(message or JointTrajectory())
         assert answer.success and answer.error_code == ErrorCode.SUCCESS, answer.message
         return answer
-
-    def ended(self, within=10.0):
-        """Waits for the end: exit status, lines of stderr, seconds since the start."""
-        _, text = self.process.communicate(timeout=within)
-        return self.process.returncode, text.splitlines(), time.monotonic() - self.started
-
-    def shut_down(self):
-        if self.process.poll() is None:
-            self.process.terminate()
-        self.process.communicate(timeout=20.0)
 
 
 class Recorder:
