@@ -1,0 +1,116 @@
+#include "dixon.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "singular_matrix.h"
+
+namespace screwline {
+namespace {
+
+using Bivector = Eigen::Matrix<double, 6, 1>;
+
+/// a ^ b in four dimensions: 01, 02, 03, 12, 13, 23.
+Bivector wedge(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
+  Bivector w;
+  w << a[0] * b[1] - a[1] * b[0], a[0] * b[2] - a[2] * b[0], a[0] * b[3] - a[3] * b[0], a[1] * b[2] - a[2] * b[1],
+      a[1] * b[3] - a[3] * b[1], a[2] * b[3] - a[3] * b[2];
+  return w;
+}
+
+/// The bivector that gives u ^ v = u . dual(v).
+Bivector dual(const Bivector& v) {
+  Bivector w;
+  w << v[5], -v[4], v[3], v[2], -v[1], v[0];
+  return w;
+}
+
+constexpr double kSines[5] = {0.0, 0.951056516295153572, 0.587785252292473129, -0.587785252292473129,
+                              -0.951056516295153572};
+constexpr double kCosines[5] = {1.0, 0.309016994374947424, -0.809016994374947424, -0.809016994374947424,
+                                0.309016994374947424};
+
+}  // namespace
+
+DixonMatrix dixonMatrix(const LoopSystem::Coefficients& m) {
+  // The determinant of the equations at (x, y, z), (i, y, z), (i, j, z), (i, j, k), divided by (x-i)(y-j)(z-k), has
+  // the columns A(y, z), B(i, z), C(i, j), E(i, j). By Laplace it is (A ^ B) ^ (C ^ E), in monomials.
+  std::array<std::array<Bivector, 2>, 6> ab;  // [3 b + k][a] of y^b z^k i^a
+  for (auto& row : ab) row = {Bivector::Zero(), Bivector::Zero()};
+  for (int z = 0; z < 2; ++z) {
+    for (int w = 0; w < 2; ++w) {
+      const auto k = static_cast<std::size_t>(z + w);
+      ab[k][0] += wedge(m.col(4 + z), m.col(2 + w));
+      ab[k][1] += wedge(m.col(4 + z), m.col(6 + w));
+      ab[3 + k][0] += wedge(m.col(6 + z), m.col(2 + w));
+    }
+  }
+  std::array<Bivector, 6> ce;  // [2 i + j], dual
+  ce.fill(Bivector::Zero());
+  for (int c = 0; c < 4; ++c) {
+    for (int e = 0; e < 4; ++e) {
+      if ((c & e & 1) != 0) continue;  // j^2 cancels.
+      const auto place = static_cast<std::size_t>(2 * ((c >> 1) + (e >> 1)) + (c & 1) + (e & 1));
+      ce[place] += dual(wedge(m.col(2 * c + 1), m.col(2 * e)));
+    }
+  }
+  DixonMatrix D;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) {
+      const auto& [constant, linear] = ab[static_cast<std::size_t>(row)];
+      double entry = constant.dot(ce[static_cast<std::size_t>(column)]);
+      if (column >= 2 && row < 3) entry += linear.dot(ce[static_cast<std::size_t>(column - 2)]);
+      D(row, column) = entry;
+    }
+  }
+  return D;
+}
+
+DixonPencil::DixonPencil(const LoopSystem& system) {
+  for (DixonMatrix& harmonic : harmonics_) harmonic.setZero();
+  for (int i = 0; i < 5; ++i) {
+    const double half = kPi * i / 5.0;
+    const DixonMatrix D = dixonMatrix(system.at({std::cos(half), std::sin(half)}));
+    const int twice = (2 * i) % 5;
+    harmonics_[0] += 0.2 * D;
+    harmonics_[1] += (0.4 * kCosines[i]) * D;
+    harmonics_[2] += (0.4 * kSines[i]) * D;
+    harmonics_[3] += (0.4 * kCosines[twice]) * D;
+    harmonics_[4] += (0.4 * kSines[twice]) * D;
+  }
+}
+
+DixonMatrix DixonPencil::at(double cosine, double sine) const {
+  return harmonics_[0] + cosine * harmonics_[1] + sine * harmonics_[2] +
+         ((cosine - sine) * (cosine + sine)) * harmonics_[3] + (2.0 * sine * cosine) * harmonics_[4];
+}
+
+TrigonometricPolynomial DixonPencil::determinant() const {
+  std::array<double, kTrigonometricSamples> values;
+  for (int i = 0; i < kTrigonometricSamples; ++i) {
+    const double angle = kTwoPi * i / kTrigonometricSamples;
+    values[static_cast<std::size_t>(i)] = determinantOf(at(std::cos(angle), std::sin(angle)));
+  }
+  return TrigonometricPolynomial(values);
+}
+
+std::array<JointParameter, 3> DixonPencil::unknownsAt(double angle) const {
+  const NullVectors null = nullVectorsOf(at(std::cos(angle), std::sin(angle)));
+  // Right: (1, x, x^2) times (1, y). Left: (1, y) times (1, z, z^2). Of the squares, the larger pair of neighbours.
+  Eigen::Matrix<double, 3, 2> xy;
+  Eigen::Matrix<double, 3, 2> zy;
+  for (int i = 0; i < 3; ++i) {
+    xy.row(i) << null.right[2 * i], null.right[2 * i + 1];
+    zy.row(i) << null.left[i], null.left[3 + i];
+  }
+  const auto split = [](const Eigen::Matrix<double, 3, 2>& v, JointParameter& square, JointParameter& other) {
+    const int first = v.row(0).squaredNorm() >= v.row(2).squaredNorm() ? 0 : 1;
+    splitProduct({v(first, 0), v(first, 1), v(first + 1, 0), v(first + 1, 1)}, square, other);
+  };
+  std::array<JointParameter, 3> unknowns;
+  split(zy, unknowns[2], unknowns[1]);
+  split(xy, unknowns[0], unknowns[1]);
+  return unknowns;
+}
+
+}  // namespace screwline

@@ -1,0 +1,36 @@
+#ifndef SCREWLINE_SRC_IK_ALGEBRAIC_DIXON_H
+#define SCREWLINE_SRC_IK_ALGEBRAIC_DIXON_H
+
+#include <array>
+
+#include "loop.h"
+#include "trigonometric.h"
+
+namespace screwline {
+
+/// Dixon's matrix of four equations that are linear in each of x, y, z: rows y^b z^k at 3 b + k, columns x^i y^j at
+/// 2 i + j. It is singular where they have a common root; the root's monomials are its null vectors, left and right.
+/// Source: Dixon 1908; for equations of this form it has no superfluous factor (Sturmfels & Zelevinsky 1994).
+using DixonMatrix = Eigen::Matrix<double, 6, 6>;
+
+DixonMatrix dixonMatrix(const LoopSystem::Coefficients& equations);
+
+/// Dixon's matrix over the hidden joint's angle: each entry is a trigonometric polynomial of degree two.
+class DixonPencil {
+ public:
+  explicit DixonPencil(const LoopSystem& system);
+
+  DixonMatrix at(double cosine, double sine) const;
+  /// Its determinant, of degree 12 at most, and 8 where the chain has 16 solutions: (1 + t^2)^4 of the half-angle
+  /// form is constant here.
+  TrigonometricPolynomial determinant() const;
+  /// The unknowns' parameters where the matrix is singular.
+  std::array<JointParameter, 3> unknownsAt(double angle) const;
+
+ private:
+  std::array<DixonMatrix, 5> harmonics_;  ///< 1, cos, sin, cos 2, sin 2.
+};
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SRC_IK_ALGEBRAIC_DIXON_H
