@@ -34,7 +34,9 @@ AlgebraicSolver::AlgebraicSolver(std::shared_ptr<const Implementation> implement
     : implementation_(std::move(implementation)) {}
 
 std::optional<AlgebraicSolver> AlgebraicSolver::compile(const SerialChain& chain) {
+  const auto isSlide = [](const Axis& axis) { return axis.prismatic; };
   if (chain.size() != 6 || chain.hasMimic()) return std::nullopt;
+  if (std::count_if(chain.axes().begin(), chain.axes().end(), isSlide) > 1) return std::nullopt;
   auto implementation = std::make_shared<const Implementation>(chain);
   if (implementation->eliminations.empty()) return std::nullopt;
   return AlgebraicSolver(std::move(implementation));
@@ -47,12 +49,16 @@ void AlgebraicSolver::solve(const Pose& target, AlgebraicSolutions& solutions) c
   solutions.degenerate = false;
   RootRefiner refiner(self.chain, self.loop.length, target, solutions);
   const DualQuaternion closure = self.loop.closure(target);
+  bool vanishing = true;
+  // Solutions that are not double come in pairs: an odd number is reason to look again.
   for (const Elimination& elimination : self.eliminations) {
-    const bool clean = elimination.solve(closure, refiner);
-    solutions.complete = solutions.complete || clean;
-    if (clean && solutions.count % 2 == 0) break;
+    const Eliminated result = elimination.solve(closure, refiner);
+    vanishing = vanishing && result == Eliminated::kVanishing;
+    solutions.complete = solutions.complete || result == Eliminated::kAll;
+    if (result == Eliminated::kAll && solutions.count % 2 == 0) break;
   }
   refiner.findContinua();
+  solutions.degenerate = solutions.degenerate || vanishing;
   solutions.complete = solutions.complete && !solutions.degenerate;
 }
 

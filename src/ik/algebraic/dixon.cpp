@@ -25,12 +25,31 @@ Bivector dual(const Bivector& v) {
   return w;
 }
 
+constexpr double kLeastCrowded = 0.5;   ///< Below it roots are not spread.
+constexpr double kMostCrowded = 0.999;  ///< A stretch of 45.
+
 constexpr double kSines[5] = {0.0, 0.951056516295153572, 0.587785252292473129, -0.587785252292473129,
                               -0.951056516295153572};
 constexpr double kCosines[5] = {1.0, 0.309016994374947424, -0.809016994374947424, -0.809016994374947424,
                                 0.309016994374947424};
 
 }  // namespace
+
+double CircleMap::image(double angle) const {
+  const double half = 0.5 * (angle - center);
+  return 2.0 * std::atan2(stretch * std::sin(half), std::cos(half));
+}
+
+double CircleMap::angle(double image) const {
+  if (stretch == 1.0) return center + image;
+  return center + 2.0 * std::atan2(std::sin(0.5 * image), stretch * std::cos(0.5 * image));
+}
+
+double CircleMap::slope(double image) const {
+  const double c = stretch * std::cos(0.5 * image);
+  const double s = std::sin(0.5 * image);
+  return stretch / (c * c + s * s);
+}
 
 DixonMatrix dixonMatrix(const LoopSystem::Coefficients& m) {
   // The determinant of the equations at (x, y, z), (i, y, z), (i, j, z), (i, j, k), divided by (x-i)(y-j)(z-k), has
@@ -85,13 +104,33 @@ DixonMatrix DixonPencil::at(double cosine, double sine) const {
          ((cosine - sine) * (cosine + sine)) * harmonics_[3] + (2.0 * sine * cosine) * harmonics_[4];
 }
 
-TrigonometricPolynomial DixonPencil::determinant() const {
+TrigonometricPolynomial DixonPencil::determinant(const CircleMap& map) const {
   std::array<double, kTrigonometricSamples> values;
   for (int i = 0; i < kTrigonometricSamples; ++i) {
-    const double angle = kTwoPi * i / kTrigonometricSamples;
-    values[static_cast<std::size_t>(i)] = determinantOf(at(std::cos(angle), std::sin(angle)));
+    const double image = kTwoPi * i / kTrigonometricSamples;
+    const double angle = map.angle(image);
+    values[static_cast<std::size_t>(i)] =
+        determinantOf(at(std::cos(angle), std::sin(angle))) * std::pow(map.slope(image), -8);
   }
   return TrigonometricPolynomial(values);
+}
+
+/// With all roots at a distance 1 / stretch from one place, the eighth root of a form of degree 16 is
+/// 1 - b cos(angle - place), where b tells the stretch.
+CircleMap DixonPencil::spread() const {
+  constexpr int kSamples = kTrigonometricSamples / 2;
+  double mean = 0.0;
+  double cosine = 0.0;
+  double sine = 0.0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double angle = kTwoPi * i / kSamples;
+    const double size = std::sqrt(std::sqrt(std::sqrt(std::abs(determinantOf(at(std::cos(angle), std::sin(angle)))))));
+    mean += size;
+    cosine -= 2.0 * size * std::cos(angle);
+    sine -= 2.0 * size * std::sin(angle);
+  }
+  const double b = std::min(std::hypot(cosine, sine) / std::max(mean, 1e-300), kMostCrowded);
+  return b < kLeastCrowded ? CircleMap{} : CircleMap{std::atan2(sine, cosine), std::sqrt((1.0 + b) / (1.0 - b))};
 }
 
 std::array<JointParameter, 3> DixonPencil::unknownsAt(double angle) const {

@@ -15,6 +15,18 @@ using DixonMatrix = Eigen::Matrix<double, 6, 6>;
 
 DixonMatrix dixonMatrix(const LoopSystem::Coefficients& equations);
 
+/// A Moebius map of the circle, tan(image / 2) = stretch tan((angle - center) / 2): it spreads what lies about
+/// `center`.
+struct CircleMap {
+  double center = 0.0;
+  double stretch = 1.0;
+
+  double image(double angle) const;
+  double angle(double image) const;
+  /// Derivative of angle(); its inverse is the squared factor by which homogeneous parameters grow.
+  double slope(double image) const;
+};
+
 /// Dixon's matrix over the hidden joint's angle: each entry is a trigonometric polynomial of degree two.
 class DixonPencil {
  public:
@@ -23,7 +35,12 @@ class DixonPencil {
   DixonMatrix at(double cosine, double sine) const;
   /// Its determinant, of degree 12 at most, and 8 where the chain has 16 solutions: (1 + t^2)^4 of the half-angle
   /// form is constant here.
-  TrigonometricPolynomial determinant() const;
+  /// Its argument is the image of the angle under `map`: as a form in the half-angle's parameters it has the same
+  /// degree.
+  TrigonometricPolynomial determinant(const CircleMap& map) const;
+  /// The map that spreads the determinant's roots over the circle, where they are crowded: they drown in rounding
+  /// there.
+  CircleMap spread() const;
   /// The unknowns' parameters where the matrix is singular.
   std::array<JointParameter, 3> unknownsAt(double angle) const;
 

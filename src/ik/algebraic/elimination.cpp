@@ -4,7 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include "dixon.h"
 #include "screwline/kinematics/forward.h"
 
 namespace screwline {
@@ -12,56 +11,72 @@ namespace {
 
 constexpr int kDegree = 8;              ///< Of the determinant: half the number of solutions.
 constexpr double kLargestNoise = 1e-5;  ///< Of the determinant's coefficients.
+constexpr int kProbes = 8;              ///< Values of the hidden joint where all of them are roots.
 constexpr int kTrials = 32;
 constexpr double kUsable = 1e-2;  ///< [rad] error of the worst trial but three.
 
 }  // namespace
 
-bool Elimination::solve(const DualQuaternion& closure, RootRefiner& refiner) const {
+Vector6 Elimination::configurationAt(const LoopSystem& system, const DixonPencil& pencil, double angle) const {
+  const std::array<JointParameter, 3> unknowns = pencil.unknownsAt(angle);
+  JointParameter first;
+  JointParameter second;
+  system.solvePair({std::cos(0.5 * angle), std::sin(0.5 * angle)}, unknowns, first, second);
+  Vector6 displacements;
+  displacements[labelling_.hidden()] = angle;
+  for (int k = 0; k < 3; ++k) {
+    const int joint = labelling_.unknown(k);
+    displacements[joint] = loop_->displacement(joint, unknowns[static_cast<std::size_t>(k)]);
+  }
+  displacements[labelling_.pair(0)] = loop_->displacement(labelling_.pair(0), first);
+  displacements[labelling_.pair(1)] = loop_->displacement(labelling_.pair(1), second);
+  return displacements.cwiseQuotient(loop_->multipliers);
+}
+
+Eliminated Elimination::solve(const DualQuaternion& closure, RootRefiner& refiner) const {
   const LoopSystem system(*loop_, labelling_, closure);
   const DixonPencil pencil(system);
-  TrigonometricPolynomial determinant = pencil.determinant();
+  const CircleMap map = pencil.spread();
+  TrigonometricPolynomial determinant = pencil.determinant(map);
   determinant.truncate(kDegree);
-  if (determinant.scale == 0.0 || determinant.noise > kLargestNoise) return false;
-  const TrigonometricRoots roots = determinant.realRoots();
+  const bool vanishing = determinant.scale == 0.0 || determinant.noise > kLargestNoise;
+  TrigonometricRoots roots;
+  if (!vanishing) roots = determinant.realRoots();
+  if (vanishing || roots.overflow) {
+    for (int i = 0; i < kProbes; ++i) refiner.add(configurationAt(system, pencil, kTwoPi * i / kProbes));
+    if (vanishing) return Eliminated::kVanishing;
+  }
   bool all_found = !roots.overflow;
+  std::array<bool, AlgebraicSolutions::kCapacity> taken{};
   for (int i = 0; i < roots.count; ++i) {
     const TrigonometricRoots::Root& root = roots.roots[static_cast<std::size_t>(i)];
-    const std::array<JointParameter, 3> unknowns = pencil.unknownsAt(root.angle);
-    const JointParameter hidden(std::cos(0.5 * root.angle), std::sin(0.5 * root.angle));
-    JointParameter first;
-    JointParameter second;
-    system.solvePair(hidden, unknowns, first, second);
-    Vector6 q;
-    q[labelling_.hidden()] = root.angle;
-    for (int k = 0; k < 3; ++k) {
-      q[labelling_.unknown(k)] = loop_->displacement(labelling_.unknown(k), unknowns[static_cast<std::size_t>(k)]);
+    const int place = refiner.add(configurationAt(system, pencil, map.angle(root.angle)));
+    if (root.touching) continue;
+    if (place < 0 || taken[static_cast<std::size_t>(place)]) {
+      all_found = false;
+    } else {
+      taken[static_cast<std::size_t>(place)] = true;
     }
-    q[labelling_.pair(0)] = loop_->displacement(labelling_.pair(0), first);
-    q[labelling_.pair(1)] = loop_->displacement(labelling_.pair(1), second);
-    const Refined refined = refiner.add(q.cwiseQuotient(loop_->multipliers));
-    if (!root.touching && refined == Refined::kFailed) all_found = false;
-    if (refined == Refined::kKnown) all_found = all_found && root.touching;
   }
-  return all_found;
+  return all_found ? Eliminated::kAll : Eliminated::kUncertain;
 }
 
 double Elimination::errorAt(const DualQuaternion& closure, const Vector6& q) const {
-  const DixonPencil pencil(LoopSystem(*loop_, labelling_, closure));
-  TrigonometricPolynomial determinant = pencil.determinant();
+  const LoopSystem system(*loop_, labelling_, closure);
+  const DixonPencil pencil(system);
+  const CircleMap map = pencil.spread();
+  TrigonometricPolynomial determinant = pencil.determinant(map);
   determinant.truncate(kDegree);
   const double angle = q[labelling_.hidden()] * loop_->multipliers[labelling_.hidden()];
-  const std::array<double, 4> d = determinant.derivatives(angle);
+  const double image = map.image(angle);
+  const std::array<double, 4> d = determinant.derivatives(image);
   if (determinant.scale == 0.0 || determinant.noise > kLargestNoise || d[1] == 0.0) return kPi;
-  double error = (std::abs(d[0]) + determinant.noise) / std::abs(d[1]);
-  const std::array<JointParameter, 3> unknowns = pencil.unknownsAt(angle);
-  for (int k = 0; k < 3; ++k) {
-    const int joint = labelling_.unknown(k);
-    const double apart =
-        loop_->displacement(joint, unknowns[static_cast<std::size_t>(k)]) - q[joint] * loop_->multipliers[joint];
-    error =
-        std::max(error, loop_->prismatic[static_cast<std::size_t>(joint)] ? std::abs(apart) / loop_->length
-                                                                          : std::abs(std::remainder(apart, kTwoPi)));
+  double error = (std::abs(d[0]) + determinant.noise) / std::abs(d[1]) * map.slope(image);
+  const Vector6 found = configurationAt(system, pencil, angle);
+  for (int joint = 0; joint < 6; ++joint) {
+    const double apart = (found[joint] - q[joint]) * loop_->multipliers[joint];
+    const bool prismatic = loop_->prismatic[static_cast<std::size_t>(joint)];
+    error = std::max(error, std::abs(prismatic ? apart / loop_->length : std::remainder(apart, kTwoPi)));
   }
   return std::isfinite(error) ? std::min(error, kPi) : kPi;
 }

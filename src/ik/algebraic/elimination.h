@@ -3,10 +3,16 @@
 
 #include <vector>
 
-#include "loop.h"
+#include "dixon.h"
 #include "root_refiner.h"
 
 namespace screwline {
+
+enum class Eliminated {
+  kAll,        ///< Every root led to a solution of its own.
+  kUncertain,  ///< Rounding hides something.
+  kVanishing,  ///< Every value of the hidden joint is a root: a self-motion, or this labelling breaks down here.
+};
 
 /// Solving by elimination in one labelling of the loop.
 class Elimination {
@@ -15,12 +21,14 @@ class Elimination {
 
   const Labelling& labelling() const { return labelling_; }
 
-  /// Adds what it finds; true where every root led to a solution of its own. No allocation.
-  bool solve(const DualQuaternion& closure, RootRefiner& refiner) const;
+  /// Adds what it finds. No allocation.
+  Eliminated solve(const DualQuaternion& closure, RootRefiner& refiner) const;
   /// How well a configuration is found for its pose: an error in rad, large where the elimination breaks down.
   double errorAt(const DualQuaternion& closure, const Vector6& q) const;
 
  private:
+  Vector6 configurationAt(const LoopSystem& system, const DixonPencil& pencil, double angle) const;
+
   const Loop* loop_;
   Labelling labelling_;
 };

@@ -120,13 +120,13 @@ bool RootRefiner::isSame(const Vector6& a, const Vector6& b) const {
   return point.error <= 8.0 * kExact;
 }
 
-Refined RootRefiner::insert(const Vector6& q) {
-  for (const std::array<double, 6>& known : solutions_) {
-    if (isSame(q, Eigen::Map<const Vector6>(known.data()))) return Refined::kKnown;
+int RootRefiner::insert(const Vector6& q) {
+  for (int i = 0; i < solutions_.count; ++i) {
+    if (isSame(q, Eigen::Map<const Vector6>(solutions_.q[static_cast<std::size_t>(i)].data()))) return i;
   }
   if (solutions_.count == static_cast<int>(solutions_.q.size())) {
     solutions_.degenerate = true;
-    return Refined::kKnown;
+    return -1;
   }
   std::array<double, 6>& place = solutions_.q[static_cast<std::size_t>(solutions_.count++)];
   for (std::size_t i = 0; i < 6; ++i) {
@@ -134,16 +134,17 @@ Refined RootRefiner::insert(const Vector6& q) {
     const double value = q[static_cast<Eigen::Index>(i)];
     place[i] = axis.prismatic ? value : wrapAngle(value * axis.multiplier) / axis.multiplier;
   }
-  return Refined::kNew;
+  return solutions_.count - 1;
 }
 
-Refined RootRefiner::add(Vector6 q) {
-  if (!q.allFinite() || q.cwiseAbs().maxCoeff() > kMaxMagnitude) return Refined::kFailed;
+int RootRefiner::add(Vector6 q) {
+  if (!q.allFinite() || q.cwiseAbs().maxCoeff() > kMaxMagnitude) return -1;
   Point point;
-  if (!refine(q, point)) return Refined::kFailed;
-  const Refined result = insert(q);
-  if (result == Refined::kNew) addMate(q, point);
-  return result;
+  if (!refine(q, point)) return -1;
+  const int known = solutions_.count;
+  const int place = insert(q);
+  if (place == known) addMate(q, point);
+  return place;
 }
 
 /// Along the direction n that J maps to almost nothing, sigma u, the residual is sigma t + kappa t^2 / 2 along u: it

@@ -5,13 +5,6 @@
 
 namespace screwline {
 
-/// What became of an approximate solution.
-enum class Refined {
-  kNew,
-  kKnown,   ///< A solution that is in the set already.
-  kFailed,  ///< No solution near it.
-};
-
 /// Takes approximate solutions of one pose to the chain's true ones and gathers them. No allocation.
 class RootRefiner {
  public:
@@ -20,7 +13,8 @@ class RootRefiner {
 
   /// Newton's method, verification, comparison with what is there. A solution that is almost singular brings the one
   /// that it almost meets.
-  Refined add(Vector6 q);
+  /// Returns its place in the set, new or known; -1 where there is no solution near.
+  int add(Vector6 q);
   /// Looks for self-motions through the solutions that are singular, and sets `degenerate`.
   void findContinua();
 
@@ -33,7 +27,7 @@ class RootRefiner {
 
   void evaluate(const Vector6& q, Point& point) const;
   bool refine(Vector6& q, Point& point) const;
-  Refined insert(const Vector6& q);
+  int insert(const Vector6& q);
   bool isSame(const Vector6& a, const Vector6& b) const;
   Vector6 difference(const Vector6& to, const Vector6& from) const;
   void addMate(const Vector6& q, const Point& point);

@@ -13,7 +13,9 @@ namespace screwline {
 /// All real solutions of a pose. A general chain of six joints has 16 at most; more are met only as members of a
 /// continuum.
 struct AlgebraicSolutions {
-  std::array<std::array<double, 6>, 24> q;  ///< rad, m; turns in (-pi, pi], limits not looked at.
+  static constexpr std::size_t kCapacity = 24;
+
+  std::array<std::array<double, 6>, kCapacity> q{};  ///< rad, m; turns in (-pi, pi], limits not looked at.
   int count = 0;
   bool complete = false;    ///< Every check says that no isolated solution is missing.
   bool degenerate = false;  ///< A self-motion passes through a solution: of it, `q` has some members.
@@ -22,7 +24,7 @@ struct AlgebraicSolutions {
   const std::array<double, 6>* end() const { return q.data() + count; }
 };
 
-/// Inverse kinematics of any chain of six joints, turns and slides in any order, for a whole pose: all real solutions.
+/// Inverse kinematics of any chain of six joints, turns and at most one slide, for a whole pose: all real solutions.
 ///
 /// The chain and its tip make a closed loop of dual quaternions, linear in each joint's half-angle parameter. The
 /// motions of two neighbouring joints span four of eight dimensions, which leaves four equations that are linear in
@@ -30,14 +32,13 @@ struct AlgebraicSolutions {
 /// is a trigonometric polynomial of degree 8: the 16 solutions, and nothing else. It is known from 32 samples, which
 /// measure its noise as well; its real roots are isolated, the null vectors give the other joints, Newton's method on
 /// the chain itself has the last word. Which joints are the pair and the fourth is chosen for the chain by trial, with
-/// alternatives where a pose is ill-conditioned; and where these fail, or a chain has two slides or more, the generic
-/// solutions (found once, by monodromy) are followed to the pose. Sources: Husty & Pfurner 2007 (joint pairs span
-/// linear spaces on Study's quadric), Dixon 1908, Sturmfels & Zelevinsky 1994 (exact multilinear resultants), Raghavan
-/// & Roth 1993 (16 is the degree), Sommese & Wampler 2005 (parameter homotopy, monodromy).
+/// alternatives where a pose is ill-conditioned. Sources: Husty & Pfurner 2007 (joint pairs span linear spaces, on
+/// Study's quadric), Dixon 1908, Sturmfels & Zelevinsky 1994 (exact multilinear resultants), Raghavan & Roth 1993 (16
+/// is the degree).
 class AlgebraicSolver {
  public:
-  /// Empty where the chain has not six joints, has mimic joints, or moves its tip in less than six dimensions.
-  /// Takes some milliseconds up to half a second; allocates.
+  /// Empty where the chain has not six joints, has mimic joints, has two slides or more, or no labelling reproduces its
+  /// configurations (as where the tip moves in less than six dimensions). Takes about 5 ms; allocates.
   static std::optional<AlgebraicSolver> compile(const SerialChain& chain);
 
   /// All solutions, each verified: errors by forward kinematics below 1e-10 (rad, and characteristic lengths).
