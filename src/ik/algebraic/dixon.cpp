@@ -25,8 +25,9 @@ Bivector dual(const Bivector& v) {
   return w;
 }
 
-constexpr double kLeastCrowded = 0.5;   ///< Below it roots are not spread.
-constexpr double kMostCrowded = 0.999;  ///< A stretch of 45.
+constexpr double kLeastCrowded = 0.5;  ///< Below it roots are not spread.
+constexpr double kLargestStretch = 20.0;
+constexpr double kAround = 0.3;  ///< [rad] beside the center, which may be a root itself.
 
 constexpr double kSines[5] = {0.0, 0.951056516295153572, 0.587785252292473129, -0.587785252292473129,
                               -0.951056516295153572};
@@ -115,22 +116,28 @@ TrigonometricPolynomial DixonPencil::determinant(const CircleMap& map) const {
   return TrigonometricPolynomial(values);
 }
 
-/// With all roots at a distance 1 / stretch from one place, the eighth root of a form of degree 16 is
-/// 1 - b cos(angle - place), where b tells the stretch.
+/// Where all roots are about one place, the eighth root of a form of degree 16 is about 1 - b cos(angle - place); with
+/// roots at a distance 1 / stretch, it is stretch^2 times as large on the other side.
 CircleMap DixonPencil::spread() const {
   constexpr int kSamples = kTrigonometricSamples / 2;
+  const auto sizeAt = [this](double angle) {
+    return std::sqrt(std::sqrt(std::sqrt(std::abs(determinantOf(at(std::cos(angle), std::sin(angle)))))));
+  };
   double mean = 0.0;
   double cosine = 0.0;
   double sine = 0.0;
   for (int i = 0; i < kSamples; ++i) {
     const double angle = kTwoPi * i / kSamples;
-    const double size = std::sqrt(std::sqrt(std::sqrt(std::abs(determinantOf(at(std::cos(angle), std::sin(angle)))))));
+    const double size = sizeAt(angle);
     mean += size;
     cosine -= 2.0 * size * std::cos(angle);
     sine -= 2.0 * size * std::sin(angle);
   }
-  const double b = std::min(std::hypot(cosine, sine) / std::max(mean, 1e-300), kMostCrowded);
-  return b < kLeastCrowded ? CircleMap{} : CircleMap{std::atan2(sine, cosine), std::sqrt((1.0 + b) / (1.0 - b))};
+  if (!(std::hypot(cosine, sine) > kLeastCrowded * mean)) return {};
+  const double center = std::atan2(sine, cosine);
+  const double near = std::max({sizeAt(center - kAround), sizeAt(center), sizeAt(center + kAround)});
+  const double stretch = std::sqrt(sizeAt(center + kPi) / std::max(near, 1e-300));
+  return {center, std::clamp(stretch, 1.0, kLargestStretch)};
 }
 
 std::array<JointParameter, 3> DixonPencil::unknownsAt(double angle) const {
