@@ -5,20 +5,11 @@
 #include "elimination.h"
 
 namespace screwline {
-namespace {
-
-constexpr std::size_t kMaxEliminations = 3;
-
-}  // namespace
-
 struct AlgebraicSolver::Implementation {
-  explicit Implementation(const SerialChain& chain_in) : chain(chain_in), loop(chain) {
-    eliminations = chooseEliminations(chain, loop);
-    if (eliminations.size() > kMaxEliminations) {
-      eliminations.erase(eliminations.begin() + static_cast<std::ptrdiff_t>(kMaxEliminations), eliminations.end());
-    }
-    if (!eliminations.empty()) {
-      const Labelling& best = eliminations.front().labelling();
+  explicit Implementation(const SerialChain& chain_in)
+      : chain(chain_in), loop(chain), eliminations(chooseEliminations(chain, loop)) {
+    if (!eliminations.usable.empty()) {
+      const Labelling& best = eliminations.usable.front().labelling();
       method = "algebraic: " + chain.joint(best.hidden()).name + " hidden, " + chain.joint(best.pair(0)).name +
                " and " + chain.joint(best.pair(1)).name + " eliminated linearly";
     }
@@ -26,7 +17,7 @@ struct AlgebraicSolver::Implementation {
 
   SerialChain chain;
   Loop loop;
-  std::vector<Elimination> eliminations;
+  EliminationChoice eliminations;
   std::string method;
 };
 
@@ -38,7 +29,7 @@ std::optional<AlgebraicSolver> AlgebraicSolver::compile(const SerialChain& chain
   if (chain.size() != 6 || chain.hasMimic()) return std::nullopt;
   if (std::count_if(chain.axes().begin(), chain.axes().end(), isSlide) > 1) return std::nullopt;
   auto implementation = std::make_shared<const Implementation>(chain);
-  if (implementation->eliminations.empty()) return std::nullopt;
+  if (implementation->eliminations.usable.empty()) return std::nullopt;
   return AlgebraicSolver(std::move(implementation));
 }
 
@@ -49,13 +40,19 @@ void AlgebraicSolver::solve(const Pose& target, AlgebraicSolutions& solutions) c
   solutions.degenerate = false;
   RootRefiner refiner(self.chain, self.loop.length, target, solutions);
   const DualQuaternion closure = self.loop.closure(target);
+  bool clean = false;
   bool vanishing = true;
   // Solutions that are not double come in pairs: an odd number is reason to look again.
-  for (const Elimination& elimination : self.eliminations) {
+  for (const Elimination& elimination : self.eliminations.usable) {
     const Eliminated result = elimination.solve(closure, refiner);
     vanishing = vanishing && result == Eliminated::kVanishing;
     solutions.complete = solutions.complete || result == Eliminated::kAll;
-    if (result == Eliminated::kAll && solutions.count % 2 == 0) break;
+    clean = result == Eliminated::kAll && solutions.count % 2 == 0;
+    if (clean) break;
+  }
+  for (const Elimination& elimination : self.eliminations.reserves) {
+    if (clean || vanishing || (solutions.complete && solutions.count % 2 == 0)) break;
+    elimination.solve(closure, refiner);
   }
   refiner.findContinua();
   solutions.degenerate = solutions.degenerate || vanishing;

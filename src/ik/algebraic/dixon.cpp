@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/SVD>
+
 #include "singular_matrix.h"
 
 namespace screwline {
@@ -28,6 +30,34 @@ Bivector dual(const Bivector& v) {
 constexpr double kLeastCrowded = 0.5;  ///< Below it roots are not spread.
 constexpr double kLargestStretch = 20.0;
 constexpr double kAround = 0.3;  ///< [rad] beside the center, which may be a root itself.
+
+using Monomials = Eigen::Matrix<double, 3, 2>;  ///< (1, x, x^2) times (1, y), in the rows and columns.
+
+Monomials monomialsOf(const Vector6& v) {
+  Monomials m;
+  m << v[0], v[1], v[2], v[3], v[4], v[5];
+  return m;
+}
+
+/// Of the squares, the larger pair of neighbours.
+void splitMonomials(const Monomials& m, JointParameter& square, JointParameter& other) {
+  const int first = m.row(0).squaredNorm() >= m.row(2).squaredNorm() ? 0 : 1;
+  splitProduct({m(first, 0), m(first, 1), m(first + 1, 0), m(first + 1, 1)}, square, other);
+}
+
+/// The real parts of (s : t) with a s^2 + b s t + c t^2 = 0.
+std::array<Eigen::Vector2d, 2> binaryRoots(double a, double b, double c) {
+  const double root = std::sqrt(std::max(b * b - 4.0 * a * c, 0.0));
+  const double q = -0.5 * (b + std::copysign(root, b));
+  return {{{q, a}, {c, q}}};
+}
+
+/// z where equations that are linear in it have the common root: two columns that are multiples of each other.
+JointParameter commonRoot(const Eigen::Vector4d& constant, const Eigen::Vector4d& linear) {
+  const double along = constant.dot(linear);
+  return constant.squaredNorm() > linear.squaredNorm() ? JointParameter(-along, constant.squaredNorm()).normalized()
+                                                       : JointParameter(linear.squaredNorm(), -along).normalized();
+}
 
 constexpr double kSines[5] = {0.0, 0.951056516295153572, 0.587785252292473129, -0.587785252292473129,
                               -0.951056516295153572};
@@ -142,21 +172,43 @@ CircleMap DixonPencil::spread() const {
 
 std::array<JointParameter, 3> DixonPencil::unknownsAt(double angle) const {
   const NullVectors null = nullVectorsOf(at(std::cos(angle), std::sin(angle)));
-  // Right: (1, x, x^2) times (1, y). Left: (1, y) times (1, z, z^2). Of the squares, the larger pair of neighbours.
-  Eigen::Matrix<double, 3, 2> xy;
-  Eigen::Matrix<double, 3, 2> zy;
-  for (int i = 0; i < 3; ++i) {
-    xy.row(i) << null.right[2 * i], null.right[2 * i + 1];
-    zy.row(i) << null.left[i], null.left[3 + i];
-  }
-  const auto split = [](const Eigen::Matrix<double, 3, 2>& v, JointParameter& square, JointParameter& other) {
-    const int first = v.row(0).squaredNorm() >= v.row(2).squaredNorm() ? 0 : 1;
-    splitProduct({v(first, 0), v(first, 1), v(first + 1, 0), v(first + 1, 1)}, square, other);
-  };
+  Vector6 left;  // (1, y) times (1, z, z^2), transposed.
+  left << null.left[0], null.left[3], null.left[1], null.left[4], null.left[2], null.left[5];
   std::array<JointParameter, 3> unknowns;
-  split(zy, unknowns[2], unknowns[1]);
-  split(xy, unknowns[0], unknowns[1]);
+  splitMonomials(monomialsOf(left), unknowns[2], unknowns[1]);
+  splitMonomials(monomialsOf(null.right), unknowns[0], unknowns[1]);
   return unknowns;
+}
+
+std::array<std::array<JointParameter, 3>, 2> DixonPencil::doubleUnknownsAt(
+    double angle, const LoopSystem::Coefficients& equations) const {
+  const Eigen::JacobiSVD<DixonMatrix> svd(at(std::cos(angle), std::sin(angle)), Eigen::ComputeFullV);
+  const Monomials u = monomialsOf(svd.matrixV().col(4));
+  const Monomials v = monomialsOf(svd.matrixV().col(5));
+  // s u + t v has rank one: of its minors, each a quadratic form in s and t, the largest.
+  Eigen::Vector3d form = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const int k = (i + 1) % 3;
+    const Eigen::Vector3d minor(u(i, 0) * u(k, 1) - u(i, 1) * u(k, 0),
+                                u(i, 0) * v(k, 1) + v(i, 0) * u(k, 1) - u(i, 1) * v(k, 0) - v(i, 1) * u(k, 0),
+                                v(i, 0) * v(k, 1) - v(i, 1) * v(k, 0));
+    if (minor.squaredNorm() > form.squaredNorm()) form = minor;
+  }
+  std::array<std::array<JointParameter, 3>, 2> both;
+  const std::array<Eigen::Vector2d, 2> weights = binaryRoots(form[0], form[1], form[2]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::array<JointParameter, 3>& unknowns = both[i];
+    splitMonomials(weights[i][0] * u + weights[i][1] * v, unknowns[0], unknowns[1]);
+    Eigen::Vector4d constant = Eigen::Vector4d::Zero();
+    Eigen::Vector4d linear = Eigen::Vector4d::Zero();
+    for (int column = 0; column < 4; ++column) {
+      const double factor = unknowns[0][column / 2] * unknowns[1][column % 2];
+      constant += factor * equations.col(2 * column);
+      linear += factor * equations.col(2 * column + 1);
+    }
+    unknowns[2] = commonRoot(constant, linear);
+  }
+  return both;
 }
 
 }  // namespace screwline

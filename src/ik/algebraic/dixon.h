@@ -43,6 +43,10 @@ class DixonPencil {
   CircleMap spread() const;
   /// The unknowns' parameters where the matrix is singular.
   std::array<JointParameter, 3> unknownsAt(double angle) const;
+  /// The same where two roots share the angle, or almost: the monomials of both lie in the plane that the matrix all
+  /// but annihilates. `equations` are the system's there.
+  std::array<std::array<JointParameter, 3>, 2> doubleUnknownsAt(double angle,
+                                                                const LoopSystem::Coefficients& equations) const;
 
  private:
   std::array<DixonMatrix, 5> harmonics_;  ///< 1, cos, sin, cos 2, sin 2.

@@ -15,10 +15,21 @@ constexpr int kProbes = 8;              ///< Values of the hidden joint where al
 constexpr int kTrials = 32;
 constexpr double kUsable = 1e-2;  ///< [rad] error of the worst trial but three.
 
+constexpr std::size_t kMaxEliminations = 3;
+
+std::vector<Elimination> bestOf(std::vector<std::pair<double, Elimination>> ranked) {
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Elimination> best;
+  for (const auto& [score, elimination] : ranked) {
+    if (best.size() < kMaxEliminations) best.push_back(elimination);
+  }
+  return best;
+}
+
 }  // namespace
 
-Vector6 Elimination::configurationAt(const LoopSystem& system, const DixonPencil& pencil, double angle) const {
-  const std::array<JointParameter, 3> unknowns = pencil.unknownsAt(angle);
+Vector6 Elimination::configurationOf(const LoopSystem& system, double angle,
+                                     const std::array<JointParameter, 3>& unknowns) const {
   JointParameter first;
   JointParameter second;
   system.solvePair({std::cos(0.5 * angle), std::sin(0.5 * angle)}, unknowns, first, second);
@@ -43,19 +54,31 @@ Eliminated Elimination::solve(const DualQuaternion& closure, RootRefiner& refine
   TrigonometricRoots roots;
   if (!vanishing) roots = determinant.realRoots();
   if (vanishing || roots.overflow) {
-    for (int i = 0; i < kProbes; ++i) refiner.add(configurationAt(system, pencil, kTwoPi * i / kProbes));
+    for (int i = 0; i < kProbes; ++i) {
+      const double angle = kTwoPi * i / kProbes;
+      refiner.add(configurationOf(system, angle, pencil.unknownsAt(angle)));
+    }
     if (vanishing) return Eliminated::kVanishing;
   }
   bool all_found = !roots.overflow;
   std::array<bool, AlgebraicSolutions::kCapacity> taken{};
   for (int i = 0; i < roots.count; ++i) {
     const TrigonometricRoots::Root& root = roots.roots[static_cast<std::size_t>(i)];
-    const int place = refiner.add(configurationAt(system, pencil, map.angle(root.angle)));
+    const double angle = map.angle(root.angle);
+    int place = refiner.add(configurationOf(system, angle, pencil.unknownsAt(angle)));
+    const auto isNew = [&taken](int found) { return found >= 0 && !taken[static_cast<std::size_t>(found)]; };
+    if (root.touching || !isNew(place)) {
+      const LoopSystem::Coefficients equations = system.at({std::cos(0.5 * angle), std::sin(0.5 * angle)});
+      for (const std::array<JointParameter, 3>& unknowns : pencil.doubleUnknownsAt(angle, equations)) {
+        const int other = refiner.add(configurationOf(system, angle, unknowns));
+        if (isNew(other)) place = other;
+      }
+    }
     if (root.touching) continue;
-    if (place < 0 || taken[static_cast<std::size_t>(place)]) {
-      all_found = false;
-    } else {
+    if (isNew(place)) {
       taken[static_cast<std::size_t>(place)] = true;
+    } else {
+      all_found = false;
     }
   }
   return all_found ? Eliminated::kAll : Eliminated::kUncertain;
@@ -72,7 +95,7 @@ double Elimination::errorAt(const DualQuaternion& closure, const Vector6& q) con
   const std::array<double, 4> d = determinant.derivatives(image);
   if (determinant.scale == 0.0 || determinant.noise > kLargestNoise || d[1] == 0.0) return kPi;
   double error = (std::abs(d[0]) + determinant.noise) / std::abs(d[1]) * map.slope(image);
-  const Vector6 found = configurationAt(system, pencil, angle);
+  const Vector6 found = configurationOf(system, angle, pencil.unknownsAt(angle));
   for (int joint = 0; joint < 6; ++joint) {
     const double apart = (found[joint] - q[joint]) * loop_->multipliers[joint];
     const bool prismatic = loop_->prismatic[static_cast<std::size_t>(joint)];
@@ -81,7 +104,7 @@ double Elimination::errorAt(const DualQuaternion& closure, const Vector6& q) con
   return std::isfinite(error) ? std::min(error, kPi) : kPi;
 }
 
-std::vector<Elimination> chooseEliminations(const SerialChain& chain, const Loop& loop) {
+EliminationChoice chooseEliminations(const SerialChain& chain, const Loop& loop) {
   std::mt19937 random(1);
   const auto unit = [&random] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
   std::vector<VectorX> trials;
@@ -91,22 +114,29 @@ std::vector<Elimination> chooseEliminations(const SerialChain& chain, const Loop
     trials.push_back(q);
   }
   std::vector<std::pair<double, Elimination>> ranked;
+  std::vector<std::pair<double, Elimination>> reserves;
   for (int i = 0; i < 12; ++i) {
     const Elimination elimination(loop, {i / 2, i % 2 == 1});
     if (loop.prismatic[static_cast<std::size_t>(elimination.labelling().hidden())]) continue;
     std::vector<double> errors;
+    int vanishing = 0;
     for (const VectorX& q : trials) {
       errors.push_back(elimination.errorAt(loop.closure(forwardKinematics(chain, q)), q));
+      vanishing += errors.back() == kPi ? 1 : 0;
     }
     std::sort(errors.begin(), errors.end());
     double score = 0.0;
     for (double error : errors) score += std::log10(error + 1e-16);
-    if (errors[kTrials - 4] < kUsable) ranked.emplace_back(score, elimination);
+    if (errors[kTrials - 4] < kUsable) {
+      ranked.emplace_back(score, elimination);
+    } else if (vanishing < kTrials / 4) {
+      reserves.emplace_back(score, elimination);
+    }
   }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Elimination> chosen;
-  for (const auto& [score, elimination] : ranked) chosen.push_back(elimination);
-  return chosen;
+  EliminationChoice choice;
+  choice.usable = bestOf(ranked);
+  choice.reserves = bestOf(reserves);
+  return choice;
 }
 
 }  // namespace screwline

@@ -27,14 +27,19 @@ class Elimination {
   double errorAt(const DualQuaternion& closure, const Vector6& q) const;
 
  private:
-  Vector6 configurationAt(const LoopSystem& system, const DixonPencil& pencil, double angle) const;
+  Vector6 configurationOf(const LoopSystem& system, double angle, const std::array<JointParameter, 3>& unknowns) const;
 
   const Loop* loop_;
   Labelling labelling_;
 };
 
-/// Labellings that serve the chain, best first; tried at fixed configurations. Empty where none does.
-std::vector<Elimination> chooseEliminations(const SerialChain& chain, const Loop& loop);
+/// Labellings that serve the chain, best first; tried at fixed configurations.
+struct EliminationChoice {
+  std::vector<Elimination> usable;
+  std::vector<Elimination> reserves;  ///< Where roots coincide, or are found badly: good for a second look only.
+};
+
+EliminationChoice chooseEliminations(const SerialChain& chain, const Loop& loop);
 
 }  // namespace screwline
 
