@@ -27,7 +27,7 @@ AlgebraicSolver::AlgebraicSolver(std::shared_ptr<const Implementation> implement
 std::optional<AlgebraicSolver> AlgebraicSolver::compile(const SerialChain& chain) {
   const auto isSlide = [](const Axis& axis) { return axis.prismatic; };
   if (chain.size() != 6 || chain.hasMimic()) return std::nullopt;
-  if (std::count_if(chain.axes().begin(), chain.axes().end(), isSlide) > 1) return std::nullopt;
+  if (std::count_if(chain.axes().begin(), chain.axes().end(), isSlide) > 2) return std::nullopt;
   auto implementation = std::make_shared<const Implementation>(chain);
   if (implementation->eliminations.usable.empty()) return std::nullopt;
   return AlgebraicSolver(std::move(implementation));

@@ -30,6 +30,8 @@ struct CircleMap {
 /// Dixon's matrix over the hidden joint's angle: each entry is a trigonometric polynomial of degree two.
 class DixonPencil {
  public:
+  static constexpr int kDegree = 8;  ///< Of the determinant: half the number of solutions.
+
   explicit DixonPencil(const LoopSystem& system);
 
   DixonMatrix at(double cosine, double sine) const;

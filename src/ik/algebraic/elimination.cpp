@@ -5,11 +5,11 @@
 #include <random>
 
 #include "screwline/kinematics/forward.h"
+#include "slide_pencil.h"
 
 namespace screwline {
 namespace {
 
-constexpr int kDegree = 8;              ///< Of the determinant: half the number of solutions.
 constexpr double kLargestNoise = 1e-5;  ///< Of the determinant's coefficients.
 constexpr int kProbes = 8;              ///< Values of the hidden joint where all of them are roots.
 constexpr int kTrials = 32;
@@ -44,12 +44,35 @@ Vector6 Elimination::configurationOf(const LoopSystem& system, double angle,
   return displacements.cwiseQuotient(loop_->multipliers);
 }
 
+int Elimination::turnBesideSlides() const {
+  int slides = 0;
+  int turn = -1;
+  for (int i = 0; i < 3; ++i) {
+    const bool slide = loop_->prismatic[static_cast<std::size_t>(labelling_.unknown(i))];
+    slides += slide ? 1 : 0;
+    if (!slide) turn = i;
+  }
+  return slides == 2 ? turn : -1;
+}
+
 Eliminated Elimination::solve(const DualQuaternion& closure, RootRefiner& refiner) const {
   const LoopSystem system(*loop_, labelling_, closure);
-  const DixonPencil pencil(system);
+  const int turn = turnBesideSlides();
+  return turn < 0 ? solveWith(DixonPencil(system), system, refiner)
+                  : solveWith(SlidePencil(system, turn), system, refiner);
+}
+
+double Elimination::errorAt(const DualQuaternion& closure, const Vector6& q) const {
+  const LoopSystem system(*loop_, labelling_, closure);
+  const int turn = turnBesideSlides();
+  return turn < 0 ? errorWith(DixonPencil(system), system, q) : errorWith(SlidePencil(system, turn), system, q);
+}
+
+template <class Pencil>
+Eliminated Elimination::solveWith(const Pencil& pencil, const LoopSystem& system, RootRefiner& refiner) const {
   const CircleMap map = pencil.spread();
   TrigonometricPolynomial determinant = pencil.determinant(map);
-  determinant.truncate(kDegree);
+  determinant.truncate(Pencil::kDegree);
   const bool vanishing = determinant.scale == 0.0 || determinant.noise > kLargestNoise;
   TrigonometricRoots roots;
   if (!vanishing) roots = determinant.realRoots();
@@ -84,12 +107,11 @@ Eliminated Elimination::solve(const DualQuaternion& closure, RootRefiner& refine
   return all_found ? Eliminated::kAll : Eliminated::kUncertain;
 }
 
-double Elimination::errorAt(const DualQuaternion& closure, const Vector6& q) const {
-  const LoopSystem system(*loop_, labelling_, closure);
-  const DixonPencil pencil(system);
+template <class Pencil>
+double Elimination::errorWith(const Pencil& pencil, const LoopSystem& system, const Vector6& q) const {
   const CircleMap map = pencil.spread();
   TrigonometricPolynomial determinant = pencil.determinant(map);
-  determinant.truncate(kDegree);
+  determinant.truncate(Pencil::kDegree);
   const double angle = q[labelling_.hidden()] * loop_->multipliers[labelling_.hidden()];
   const double image = map.image(angle);
   const std::array<double, 4> d = determinant.derivatives(image);

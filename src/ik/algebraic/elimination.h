@@ -27,6 +27,12 @@ class Elimination {
   double errorAt(const DualQuaternion& closure, const Vector6& q) const;
 
  private:
+  /// Place among the unknowns of the turn beside two slides; -1 where there is one slide at most.
+  int turnBesideSlides() const;
+  template <class Pencil>
+  Eliminated solveWith(const Pencil& pencil, const LoopSystem& system, RootRefiner& refiner) const;
+  template <class Pencil>
+  double errorWith(const Pencil& pencil, const LoopSystem& system, const Vector6& q) const;
   Vector6 configurationOf(const LoopSystem& system, double angle, const std::array<JointParameter, 3>& unknowns) const;
 
   const Loop* loop_;
