@@ -100,6 +100,22 @@ TEST(IkAlgebraic, FindsTheGeneratingConfigurationWithASlideAnywhere) {
     expectReproduced(test::generalArm(maker, i % 6), maker, 60, "slide " + std::to_string(i));
 }
 
+TEST(IkAlgebraic, FindsTheGeneratingConfigurationWithTwoOrThreeSlides) {
+  test::ArmMaker maker(kSeed + 11);
+  for (int slides = 0; slides < 64; ++slides) {
+    std::vector<Axis> axes;
+    int count = 0;
+    for (int i = 0; i < 6; ++i) {
+      axes.push_back(test::ArmMaker::turn(maker.direction(), maker.vector(0.6)));
+      axes.back().prismatic = ((slides >> i) & 1) != 0;
+      count += axes.back().prismatic ? 1 : 0;
+    }
+    if (count != 2 && count != 3) continue;
+    expectReproduced(test::ArmMaker::chain(axes, maker.pose(), maker.pose()), maker, 100,
+                     "slides " + std::to_string(slides));
+  }
+}
+
 TEST(IkAlgebraic, ServesArmsOfSpecialGeometry) {
   test::ArmMaker maker(kSeed + 2);
   for (const test::AlgebraicArm& arm :
@@ -234,7 +250,7 @@ TEST(IkAlgebraic, RefusesWhatItDoesNotServe) {
   std::vector<Axis> five(axes.begin(), axes.begin() + 5);
   EXPECT_FALSE(AlgebraicSolver::compile(test::ArmMaker::chain(five, Pose(), Pose())).has_value());
   std::vector<Axis> slides = axes;
-  slides[1].prismatic = slides[4].prismatic = true;
+  slides[0].prismatic = slides[1].prismatic = slides[3].prismatic = slides[4].prismatic = true;
   EXPECT_FALSE(AlgebraicSolver::compile(test::ArmMaker::chain(slides, Pose(), Pose())).has_value());
   for (Axis& axis : axes) axis.direction = Vector3::UnitZ();
   EXPECT_FALSE(AlgebraicSolver::compile(test::ArmMaker::chain(axes, Pose(), Pose())).has_value());

@@ -3,11 +3,17 @@
 #include <algorithm>
 
 #include "elimination.h"
+#include "three_slides.h"
 
 namespace screwline {
 struct AlgebraicSolver::Implementation {
   explicit Implementation(const SerialChain& chain_in)
-      : chain(chain_in), loop(chain), eliminations(chooseEliminations(chain, loop)) {
+      : chain(chain_in), loop(chain), three_slides(ThreeSlides::compile(chain)) {
+    if (three_slides) {
+      method = "algebraic: three turns make the orientation, three slides the position";
+      return;
+    }
+    eliminations = chooseEliminations(chain, loop);
     if (!eliminations.usable.empty()) {
       const Labelling& best = eliminations.usable.front().labelling();
       method = "algebraic: " + chain.joint(best.hidden()).name + " hidden, " + chain.joint(best.pair(0)).name +
@@ -17,6 +23,7 @@ struct AlgebraicSolver::Implementation {
 
   SerialChain chain;
   Loop loop;
+  std::optional<ThreeSlides> three_slides;
   EliminationChoice eliminations;
   std::string method;
 };
@@ -27,9 +34,9 @@ AlgebraicSolver::AlgebraicSolver(std::shared_ptr<const Implementation> implement
 std::optional<AlgebraicSolver> AlgebraicSolver::compile(const SerialChain& chain) {
   const auto isSlide = [](const Axis& axis) { return axis.prismatic; };
   if (chain.size() != 6 || chain.hasMimic()) return std::nullopt;
-  if (std::count_if(chain.axes().begin(), chain.axes().end(), isSlide) > 2) return std::nullopt;
+  if (std::count_if(chain.axes().begin(), chain.axes().end(), isSlide) > 3) return std::nullopt;
   auto implementation = std::make_shared<const Implementation>(chain);
-  if (implementation->eliminations.usable.empty()) return std::nullopt;
+  if (implementation->method.empty()) return std::nullopt;
   return AlgebraicSolver(std::move(implementation));
 }
 
@@ -39,6 +46,11 @@ void AlgebraicSolver::solve(const Pose& target, AlgebraicSolutions& solutions) c
   solutions.complete = false;
   solutions.degenerate = false;
   RootRefiner refiner(self.chain, self.loop.length, target, solutions);
+  if (self.three_slides) {
+    solutions.complete = self.three_slides->solve(self.chain, target, refiner);
+    solutions.degenerate = !solutions.complete;
+    return;
+  }
   const DualQuaternion closure = self.loop.closure(target);
   bool clean = false;
   bool vanishing = true;

@@ -11,6 +11,7 @@ namespace screwline {
 namespace {
 
 constexpr double kLargestNoise = 1e-5;  ///< Of the determinant's coefficients.
+constexpr double kAtInfinity = 1e-6;    ///< Of a slide's parameters, the homogeneous one.
 constexpr int kProbes = 8;              ///< Values of the hidden joint where all of them are roots.
 constexpr int kTrials = 32;
 constexpr double kUsable = 1e-2;  ///< [rad] error of the worst trial but three.
@@ -55,6 +56,20 @@ int Elimination::turnBesideSlides() const {
   return slides == 2 ? turn : -1;
 }
 
+bool Elimination::isAtInfinity(const std::array<JointParameter, 3>& unknowns) const {
+  for (int i = 0; i < 3; ++i) {
+    const bool slide = loop_->prismatic[static_cast<std::size_t>(labelling_.unknown(i))];
+    if (slide && std::abs(unknowns[static_cast<std::size_t>(i)][0]) < kAtInfinity) return true;
+  }
+  return false;
+}
+
+bool Elimination::isSensible() const {
+  if (loop_->prismatic[static_cast<std::size_t>(labelling_.hidden())]) return false;
+  const bool inside = labelling_.hidden_place == 1 || labelling_.hidden_place == 2;
+  return !inside || turnBesideSlides() >= 0;
+}
+
 Eliminated Elimination::solve(const DualQuaternion& closure, RootRefiner& refiner) const {
   const LoopSystem system(*loop_, labelling_, closure);
   const int turn = turnBesideSlides();
@@ -88,7 +103,9 @@ Eliminated Elimination::solveWith(const Pencil& pencil, const LoopSystem& system
   for (int i = 0; i < roots.count; ++i) {
     const TrigonometricRoots::Root& root = roots.roots[static_cast<std::size_t>(i)];
     const double angle = map.angle(root.angle);
-    int place = refiner.add(configurationOf(system, angle, pencil.unknownsAt(angle)));
+    const std::array<JointParameter, 3> at_root = pencil.unknownsAt(angle);
+    if (isAtInfinity(at_root)) continue;
+    int place = refiner.add(configurationOf(system, angle, at_root));
     const auto isNew = [&taken](int found) { return found >= 0 && !taken[static_cast<std::size_t>(found)]; };
     if (root.touching || !isNew(place)) {
       const LoopSystem::Coefficients equations = system.at({std::cos(0.5 * angle), std::sin(0.5 * angle)});
@@ -137,9 +154,9 @@ EliminationChoice chooseEliminations(const SerialChain& chain, const Loop& loop)
   }
   std::vector<std::pair<double, Elimination>> ranked;
   std::vector<std::pair<double, Elimination>> reserves;
-  for (int i = 0; i < 12; ++i) {
-    const Elimination elimination(loop, {i / 2, i % 2 == 1});
-    if (loop.prismatic[static_cast<std::size_t>(elimination.labelling().hidden())]) continue;
+  for (int i = 0; i < 24; ++i) {
+    const Elimination elimination(loop, {i / 4, i % 4});
+    if (!elimination.isSensible()) continue;
     std::vector<double> errors;
     int vanishing = 0;
     for (const VectorX& q : trials) {

@@ -20,6 +20,8 @@ class Elimination {
   Elimination(const Loop& loop, const Labelling& labelling) : loop_(&loop), labelling_(labelling) {}
 
   const Labelling& labelling() const { return labelling_; }
+  /// The hidden joint is a turn, and next to the pair unless slides leave no such.
+  bool isSensible() const;
 
   /// Adds what it finds. No allocation.
   Eliminated solve(const DualQuaternion& closure, RootRefiner& refiner) const;
@@ -27,6 +29,8 @@ class Elimination {
   double errorAt(const DualQuaternion& closure, const Vector6& q) const;
 
  private:
+  /// Roots with slides at infinity are none of the arm's: of two slides, such may be real.
+  bool isAtInfinity(const std::array<JointParameter, 3>& unknowns) const;
   /// Place among the unknowns of the turn beside two slides; -1 where there is one slide at most.
   int turnBesideSlides() const;
   template <class Pencil>

@@ -68,7 +68,9 @@ LoopSystem::LoopSystem(const Loop& loop, const Labelling& labelling, const DualQ
   const Products right = product(factor(4), factor(5));
   for (int i = 0; i < 4; ++i) pair_products.col(i) = conjugate(pair[static_cast<std::size_t>(i)]);
   for (int i = 0; i < 16; ++i) {
-    const int column = labelling.hidden_last ? ((i & 1) << 3) | (i >> 1) : i;
+    // The hidden joint's bit goes to the front, the others keep their order.
+    const int place = 3 - labelling.hidden_place;
+    const int column = (((i >> place) & 1) << 3) | ((i >> (place + 1)) << place) | (i & ((1 << place) - 1));
     products.col(column) = multiply(left[static_cast<std::size_t>(i / 4)], right[static_cast<std::size_t>(i % 4)]);
   }
   const Eigen::HouseholderQR<Eigen::Matrix<double, 8, 4>> factorization(pair_products);

@@ -30,15 +30,15 @@ struct Loop {
 };
 
 /// Which joints play which part: the pair that is eliminated linearly, and the other four in the loop's order behind
-/// it, of which the first or the last (both are the pair's neighbours) is the hidden one.
+/// it, of which one is hidden. Where it is the first or the last (the pair's neighbours), every root is a solution.
 struct Labelling {
   int pair_first = 0;
-  bool hidden_last = false;
+  int hidden_place = 0;  ///< Among the four.
 
-  int hidden() const { return (pair_first + (hidden_last ? 5 : 2)) % 6; }
-  /// The three unknowns beside the hidden one, in the loop's order.
-  int unknown(int i) const { return (pair_first + (hidden_last ? 2 : 3) + i) % 6; }
   int pair(int i) const { return (pair_first + i) % 6; }
+  int hidden() const { return (pair_first + 2 + hidden_place) % 6; }
+  /// The three unknowns beside the hidden one, in the loop's order.
+  int unknown(int i) const { return (pair_first + 2 + (i < hidden_place ? i : i + 1)) % 6; }
 };
 
 /// The loop in a labelling: the pair's motions e_a e_b span four dimensions of eight, so four linear conditions say
