@@ -59,6 +59,9 @@ JointParameter commonRoot(const Eigen::Vector4d& constant, const Eigen::Vector4d
                                                        : JointParameter(linear.squaredNorm(), -along).normalized();
 }
 
+constexpr int kVanishingSamples = 7;
+constexpr double kVanishing = 1e-12;  ///< Last pivot over the first.
+
 constexpr double kSines[5] = {0.0, 0.951056516295153572, 0.587785252292473129, -0.587785252292473129,
                               -0.951056516295153572};
 constexpr double kCosines[5] = {1.0, 0.309016994374947424, -0.809016994374947424, -0.809016994374947424,
@@ -168,6 +171,14 @@ CircleMap DixonPencil::spread() const {
   const double near = std::max({sizeAt(center - kAround), sizeAt(center), sizeAt(center + kAround)});
   const double stretch = std::sqrt(sizeAt(center + kPi) / std::max(near, 1e-300));
   return {center, std::clamp(stretch, 1.0, kLargestStretch)};
+}
+
+bool DixonPencil::vanishes() const {
+  for (int i = 0; i < kVanishingSamples; ++i) {
+    const double angle = 0.5 + kTwoPi * i / kVanishingSamples;
+    if (nullVectorsOf(at(std::cos(angle), std::sin(angle))).pivot_ratio > kVanishing) return false;
+  }
+  return true;
 }
 
 std::array<JointParameter, 3> DixonPencil::unknownsAt(double angle) const {

@@ -43,6 +43,8 @@ class DixonPencil {
   /// The map that spreads the determinant's roots over the circle, where they are crowded: they drown in rounding
   /// there.
   CircleMap spread() const;
+  /// Whether the matrix is singular at every angle, to rounding.
+  bool vanishes() const;
   /// The unknowns' parameters where the matrix is singular.
   std::array<JointParameter, 3> unknownsAt(double angle) const;
   /// The same where two roots share the angle, or almost: the monomials of both lie in the plane that the matrix all

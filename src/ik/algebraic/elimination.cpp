@@ -88,7 +88,7 @@ Eliminated Elimination::solveWith(const Pencil& pencil, const LoopSystem& system
   const CircleMap map = pencil.spread();
   TrigonometricPolynomial determinant = pencil.determinant(map);
   determinant.truncate(Pencil::kDegree);
-  const bool vanishing = determinant.scale == 0.0 || determinant.noise > kLargestNoise;
+  const bool vanishing = determinant.scale == 0.0 || determinant.noise > kLargestNoise || pencil.vanishes();
   TrigonometricRoots roots;
   if (!vanishing) roots = determinant.realRoots();
   if (vanishing || roots.overflow) {

@@ -12,6 +12,9 @@ double determinantOf(const Vector3& a, const Vector3& b, const Vector3& c) {
   return a.dot(b.cross(c));
 }
 
+constexpr int kVanishingSamples = 7;
+constexpr double kVanishing = 1e-14;  ///< Determinant over the fourth power of the entries' size.
+
 /// Places of the two slides beside the turn.
 constexpr int kSlides[3][2] = {{1, 2}, {0, 2}, {0, 1}};
 
@@ -39,6 +42,17 @@ Eigen::Matrix4d SlidePencil::minorsAt(double angle, Linear& constant, Linear& sl
         determinantOf(a, e, f) + determinantOf(d, b, f) + determinantOf(d, e, c), determinantOf(d, e, f);
   }
   return minors;
+}
+
+bool SlidePencil::vanishes() const {
+  Linear constant;
+  Linear slope;
+  for (int i = 0; i < kVanishingSamples; ++i) {
+    const Eigen::Matrix4d minors = minorsAt(0.5 + kTwoPi * i / kVanishingSamples, constant, slope);
+    const double scale = minors.norm();
+    if (std::abs(minors.determinant()) > kVanishing * scale * scale * scale * scale) return false;
+  }
+  return true;
 }
 
 TrigonometricPolynomial SlidePencil::determinant(const CircleMap&) const {

@@ -18,6 +18,7 @@ class SlidePencil {
 
   TrigonometricPolynomial determinant(const CircleMap& map) const;
   CircleMap spread() const { return {}; }
+  bool vanishes() const;
   std::array<JointParameter, 3> unknownsAt(double angle) const;
   std::array<std::array<JointParameter, 3>, 2> doubleUnknownsAt(double angle, const LoopSystem::Coefficients&) const;
 
