@@ -41,9 +41,10 @@ struct AlgebraicArm {
 constexpr double kRight = 0.5 * kPi;
 constexpr double kDegree = kPi / 180.0;
 
-/// Has poses with 16 real solutions. Source: Manocha & Canny, Efficient inverse kinematics for general 6R manipulators,
-/// IEEE Transactions on Robotics and Automation 10(5), 1994, after Wampler & Morgan 1991 (table as remembered; that 16
-/// exist is shown by search in the test, whatever the source).
+/// Has poses with 16 real solutions: shown by search in the test. Its shape (neighbouring axes alternately at a right
+/// angle and at one degree) is that of the example in Manocha & Canny, Efficient inverse kinematics for general 6R
+/// manipulators, IEEE Transactions on Robotics and Automation 10(5), 1994; the numbers are not checked against the
+/// paper.
 inline AlgebraicArm sixteenArm() {
   return {"sixteen",
           {{{0.0, 0.0, 0.0},
