@@ -1,0 +1,207 @@
+#include "root_refiner.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+
+#include "screwline/kinematics/kernel_sweep.h"
+#include "screwline/spatial/rotation.h"
+#include "singular_matrix.h"
+
+namespace screwline {
+namespace {
+
+constexpr int kMaxSteps = 60;
+constexpr double kAccepted = 1e-11;      ///< Error of a solution.
+constexpr double kExact = 2e-15;         ///< Error that is rounding.
+constexpr double kLongestStep = 0.5;     ///< [rad], [lengths] of Newton's method.
+constexpr double kSame = 1e-6;           ///< [rad], [lengths]
+constexpr double kMaybeSame = 1e-3;      ///< Closer than this, the middle decides.
+constexpr double kNearSingular = 1e-3;   ///< Pivot ratio below which a mate is looked for.
+constexpr double kFarthestMate = 0.5;    ///< [rad], [lengths]
+constexpr double kSingular = 1e-6;       ///< Singular value below which a continuum is looked for.
+constexpr double kContinuumStep = 1e-2;  ///< [rad], [lengths]
+
+Vector3 smallRotationVector(const Matrix3& R) {
+  const Vector3 twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  return R.trace() > 2.9 ? Vector3(0.5 * twice) : rotationVector(R);
+}
+
+}  // namespace
+
+RootRefiner::RootRefiner(const SerialChain& chain, double length, const Pose& target, AlgebraicSolutions& solutions)
+    : chain_(chain), length_(length), target_(target), solutions_(solutions) {}
+
+void RootRefiner::evaluate(const Vector6& q, Point& point) const {
+  Eigen::Matrix<double, 3, 6> z;
+  Eigen::Matrix<double, 3, 6> p;
+  Eigen::Index i = 0;
+  const Pose X = sweepKernel(chain_.kernel(), q.data(), [&](const AxisKernel&, const Vector3& axis, const Vector3& at) {
+    z.col(i) = axis;
+    p.col(i) = at;
+    ++i;
+  });
+  const double unit = 1.0 / length_;
+  for (i = 0; i < 6; ++i) {
+    const AxisKernel& axis = chain_.kernel().axes[static_cast<std::size_t>(i)];
+    // A slide is measured in lengths here, as positions are.
+    if (axis.prismatic) {
+      point.J.col(i) << axis.multiplier * z.col(i), Vector3::Zero();
+    } else {
+      point.J.col(i) << (axis.multiplier * unit) * z.col(i).cross(X.p - p.col(i)), axis.multiplier * z.col(i);
+    }
+  }
+  point.residual << unit * (target_.p - X.p), smallRotationVector(target_.R * X.R.transpose());
+  point.error = point.residual.norm();
+}
+
+bool RootRefiner::refine(Vector6& q, Point& best) const {
+  Vector6 scale = Vector6::Ones();
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    if (chain_.kernel().axes[static_cast<std::size_t>(i)].prismatic) scale[i] = length_;
+  }
+  evaluate(q, best);
+  Point point;
+  double damping = 0.0;
+  int gained_nothing = 0;
+  for (int k = 0; k < kMaxSteps && best.error > kExact; ++k) {
+    Vector6 step;
+    const bool solved = damping == 0.0 && solveLinear(best.J, best.residual, step);
+    if (!solved || !(step.norm() <= kLongestStep)) {
+      damping = std::max(damping, 1e-2 * best.error * best.error + 1e-30);
+      const Matrix6 normal = best.J.transpose() * best.J + damping * Matrix6::Identity();
+      step = normal.ldlt().solve(best.J.transpose() * best.residual);
+      if (!(step.norm() <= kLongestStep)) step *= kLongestStep / step.norm();
+    }
+    if (!step.allFinite()) return false;
+    const Vector6 next = q + step.cwiseProduct(scale);
+    evaluate(next, point);
+    const bool better = point.error < best.error;
+    if (better && point.error < 0.9 * best.error) {
+      gained_nothing = 0;
+      damping = damping > 1e-20 ? 0.1 * damping : 0.0;
+    } else {
+      if (best.error < kAccepted && ++gained_nothing > 2) break;
+      damping = std::max(10.0 * damping, 1e-6 * best.error);
+      if (damping > 1e6) break;
+    }
+    if (better) {
+      q = next;
+      best = point;
+    }
+    if (step.norm() < 1e-16) break;
+  }
+  return best.error <= kAccepted;
+}
+
+Vector6 RootRefiner::difference(const Vector6& to, const Vector6& from) const {
+  Vector6 d = to - from;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const AxisKernel& axis = chain_.kernel().axes[static_cast<std::size_t>(i)];
+    d[i] = axis.prismatic ? d[i] / length_ : std::remainder(d[i], kTwoPi / axis.multiplier);
+  }
+  return d;
+}
+
+bool RootRefiner::isSame(const Vector6& a, const Vector6& b) const {
+  const Vector6 apart = difference(a, b);
+  const double distance = apart.cwiseAbs().maxCoeff();
+  if (distance <= kSame) return true;
+  if (distance > kMaybeSame) return false;
+  // Where the middle is a solution as well, rounding leaves open where between the two the solution lies.
+  Vector6 middle = b;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const bool prismatic = chain_.kernel().axes[static_cast<std::size_t>(i)].prismatic;
+    middle[i] += 0.5 * apart[i] * (prismatic ? length_ : 1.0);
+  }
+  Point point;
+  evaluate(middle, point);
+  return point.error <= 8.0 * kExact;
+}
+
+int RootRefiner::insert(const Vector6& q) {
+  for (int i = 0; i < solutions_.count; ++i) {
+    if (isSame(q, Eigen::Map<const Vector6>(solutions_.q[static_cast<std::size_t>(i)].data()))) return i;
+  }
+  if (solutions_.count == static_cast<int>(solutions_.q.size())) {
+    solutions_.degenerate = true;
+    return -1;
+  }
+  std::array<double, 6>& place = solutions_.q[static_cast<std::size_t>(solutions_.count++)];
+  for (std::size_t i = 0; i < 6; ++i) {
+    const AxisKernel& axis = chain_.kernel().axes[i];
+    const double value = q[static_cast<Eigen::Index>(i)];
+    place[i] = axis.prismatic ? value : wrapAngle(value * axis.multiplier) / axis.multiplier;
+  }
+  return solutions_.count - 1;
+}
+
+int RootRefiner::add(Vector6 q) {
+  if (!q.allFinite() || q.cwiseAbs().maxCoeff() > kMaxMagnitude) return -1;
+  Point point;
+  if (!refine(q, point)) return -1;
+  const int known = solutions_.count;
+  const int place = insert(q);
+  if (place == known) addMate(q, point);
+  return place;
+}
+
+/// Along the direction n that J maps to almost nothing, sigma u, the residual is sigma t + kappa t^2 / 2 along u: it
+/// vanishes at zero and once more.
+void RootRefiner::addMate(const Vector6& q, const Point& point) {
+  if (nullVectorsOf(point.J).pivot_ratio > kNearSingular) return;
+  const Eigen::JacobiSVD<Matrix6> svd(point.J, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vector6 u = svd.matrixU().col(5);
+  Vector6 n = svd.matrixV().col(5);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    if (chain_.kernel().axes[static_cast<std::size_t>(i)].prismatic) n[i] *= length_;
+  }
+  constexpr double kProbe = 1e-4;
+  Point probe;
+  evaluate(q + kProbe * n, probe);
+  const double ahead = -u.dot(probe.residual);
+  evaluate(q - kProbe * n, probe);
+  const double behind = -u.dot(probe.residual);
+  const double sigma = (ahead - behind) / (2.0 * kProbe);
+  const double kappa = (ahead + behind) / (kProbe * kProbe);
+  const double t = -2.0 * sigma / kappa;
+  if (!(std::abs(t) < kFarthestMate)) return;
+  Vector6 mate = q + t * n;
+  Point at_mate;
+  if (refine(mate, at_mate)) insert(mate);
+}
+
+bool RootRefiner::continues(const Vector6& q, const Vector6& direction) const {
+  for (const double side : {kContinuumStep, -kContinuumStep}) {
+    Vector6 moved = q + side * direction;
+    Point point;
+    if (!refine(moved, point)) return false;
+    const double distance = difference(moved, q).norm();
+    if (!(distance > 0.5 * kContinuumStep && distance < 2.0 * kContinuumStep)) return false;
+    const Eigen::JacobiSVD<Matrix6> svd(point.J);
+    if (svd.singularValues()[5] > kSingular) return false;
+  }
+  return true;
+}
+
+void RootRefiner::findContinua() {
+  for (const std::array<double, 6>& known : solutions_) {
+    const Vector6 q = Eigen::Map<const Vector6>(known.data());
+    Point point;
+    evaluate(q, point);
+    if (nullVectorsOf(point.J).pivot_ratio > 10.0 * kSingular) continue;
+    const Eigen::JacobiSVD<Matrix6> svd(point.J, Eigen::ComputeFullV);
+    if (svd.singularValues()[5] > kSingular) continue;
+    Vector6 n = svd.matrixV().col(5);
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      if (chain_.kernel().axes[static_cast<std::size_t>(i)].prismatic) n[i] *= length_;
+    }
+    if (continues(q, n)) {
+      solutions_.degenerate = true;
+      return;
+    }
+  }
+}
+
+}  // namespace screwline

@@ -1,0 +1,44 @@
+#ifndef SCREWLINE_SRC_IK_ALGEBRAIC_ROOT_REFINER_H
+#define SCREWLINE_SRC_IK_ALGEBRAIC_ROOT_REFINER_H
+
+#include "screwline/ik/algebraic/algebraic_solver.h"
+
+namespace screwline {
+
+/// Takes approximate solutions of one pose to the chain's true ones and gathers them. No allocation.
+class RootRefiner {
+ public:
+  /// `length` [m] weighs positions against angles.
+  RootRefiner(const SerialChain& chain, double length, const Pose& target, AlgebraicSolutions& solutions);
+
+  /// Newton's method, verification, comparison with what is there. A solution that is almost singular brings the one
+  /// that it almost meets.
+  /// Returns its place in the set, new or known; -1 where there is no solution near.
+  int add(Vector6 q);
+  /// Looks for self-motions through the solutions that are singular, and sets `degenerate`.
+  void findContinua();
+
+ private:
+  struct Point {
+    Vector6 residual;  ///< Target minus pose: position over length, rotation.
+    Matrix6 J;         ///< Its derivative, negative.
+    double error = 0.0;
+  };
+
+  void evaluate(const Vector6& q, Point& point) const;
+  bool refine(Vector6& q, Point& point) const;
+  int insert(const Vector6& q);
+  bool isSame(const Vector6& a, const Vector6& b) const;
+  Vector6 difference(const Vector6& to, const Vector6& from) const;
+  void addMate(const Vector6& q, const Point& point);
+  bool continues(const Vector6& q, const Vector6& direction) const;
+
+  const SerialChain& chain_;
+  double length_;
+  const Pose& target_;
+  AlgebraicSolutions& solutions_;
+};
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SRC_IK_ALGEBRAIC_ROOT_REFINER_H

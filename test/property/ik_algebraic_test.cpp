@@ -1,0 +1,273 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include <Eigen/LU>
+
+#include "algebraic_arms.h"
+#include "screwline/ik/algebraic/algebraic_solver.h"
+#include "screwline/ik/numerical/numerical_solver.h"
+#include "screwline/kinematics/forward.h"
+
+namespace screwline {
+namespace {
+
+constexpr unsigned kSeed = 20261124;
+
+VectorX valuesOf(const std::array<double, 6>& q) {
+  return Eigen::Map<const Vector6>(q.data());
+}
+
+double difference(const SerialChain& chain, const VectorX& a, const VectorX& b) {
+  double largest = 0.0;
+  for (int i = 0; i < chain.size(); ++i) {
+    const double d = a[i] - b[i];
+    largest = std::max(largest, std::abs(chain.joint(i).isRevolute() ? std::remainder(d, kTwoPi) : d));
+  }
+  return largest;
+}
+
+double nearest(const SerialChain& chain, const AlgebraicSolutions& solutions, const VectorX& q) {
+  double least = 10.0;
+  for (const std::array<double, 6>& solution : solutions)
+    least = std::min(least, difference(chain, valuesOf(solution), q));
+  return least;
+}
+
+VectorX randomConfiguration(test::ArmMaker& maker, const SerialChain& chain) {
+  VectorX q(chain.size());
+  for (int i = 0; i < chain.size(); ++i) q[i] = maker.uniform(-kPi, kPi) * (chain.joint(i).isRevolute() ? 1.0 : 0.3);
+  return q;
+}
+
+/// Laws of every answer: the pose is reached, nothing is there twice, all is finite.
+void expectLawful(const SerialChain& chain, const Pose& target, const AlgebraicSolutions& solutions) {
+  for (int i = 0; i < solutions.count; ++i) {
+    const VectorX q = valuesOf(solutions.q[static_cast<std::size_t>(i)]);
+    ASSERT_TRUE(q.allFinite());
+    EXPECT_LE(taskError(Task(), target, forwardByExponentials(chain, q)).norm(), 1e-9);
+    for (int j = 0; j < i; ++j) {
+      EXPECT_GT(difference(chain, q, valuesOf(solutions.q[static_cast<std::size_t>(j)])), 1e-6);
+    }
+  }
+}
+
+/// The generating configuration is among the solutions of random poses, and the list says it is complete.
+void expectReproduced(const SerialChain& chain, test::ArmMaker& maker, int poses, const std::string& name) {
+  SCOPED_TRACE(name + ", seed " + std::to_string(kSeed));
+  const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+  ASSERT_TRUE(solver.has_value());
+  AlgebraicSolutions solutions;
+  int incomplete = 0;
+  for (int i = 0; i < poses; ++i) {
+    const VectorX q = randomConfiguration(maker, chain);
+    const Pose target = forwardKinematics(chain, q);
+    solver->solve(target, solutions);
+    expectLawful(chain, target, solutions);
+    EXPECT_LE(nearest(chain, solutions, q), 1e-6) << "q = " << q.transpose();
+    incomplete += solutions.complete ? 0 : 1;
+  }
+  EXPECT_LE(incomplete, poses / 100);
+}
+
+/// As many as a search with many starts finds, on a few poses.
+void expectCounted(const SerialChain& chain, test::ArmMaker& maker, int poses, const std::string& name) {
+  SCOPED_TRACE(name + ", seed " + std::to_string(kSeed));
+  const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+  ASSERT_TRUE(solver.has_value());
+  SearchOptions options;
+  options.restarts = 600;
+  options.timeout = 60.0;
+  AlgebraicSolutions solutions;
+  for (int i = 0; i < poses; ++i) {
+    const Pose target = forwardKinematics(chain, randomConfiguration(maker, chain));
+    solver->solve(target, solutions);
+    const SearchResult searched = search(chain, Task(), target, {}, options);
+    EXPECT_GE(solutions.count, static_cast<int>(searched.solutions.size()));
+    for (const VectorX& q : searched.solutions) EXPECT_LE(nearest(chain, solutions, q), 1e-5);
+  }
+}
+
+TEST(IkAlgebraic, FindsTheGeneratingConfigurationOfGeneralArms) {
+  test::ArmMaker maker(kSeed);
+  for (int i = 0; i < 40; ++i) expectReproduced(test::generalArm(maker, -1), maker, 100, "6R " + std::to_string(i));
+}
+
+TEST(IkAlgebraic, FindsTheGeneratingConfigurationWithASlideAnywhere) {
+  test::ArmMaker maker(kSeed + 1);
+  for (int i = 0; i < 24; ++i)
+    expectReproduced(test::generalArm(maker, i % 6), maker, 60, "slide " + std::to_string(i));
+}
+
+TEST(IkAlgebraic, FindsTheGeneratingConfigurationWithTwoOrThreeSlides) {
+  test::ArmMaker maker(kSeed + 11);
+  for (int slides = 0; slides < 64; ++slides) {
+    std::vector<Axis> axes;
+    int count = 0;
+    for (int i = 0; i < 6; ++i) {
+      axes.push_back(test::ArmMaker::turn(maker.direction(), maker.vector(0.6)));
+      axes.back().prismatic = ((slides >> i) & 1) != 0;
+      count += axes.back().prismatic ? 1 : 0;
+    }
+    if (count != 2 && count != 3) continue;
+    expectReproduced(test::ArmMaker::chain(axes, maker.pose(), maker.pose()), maker, 100,
+                     "slides " + std::to_string(slides));
+  }
+}
+
+TEST(IkAlgebraic, ServesArmsOfSpecialGeometry) {
+  test::ArmMaker maker(kSeed + 2);
+  for (const test::AlgebraicArm& arm :
+       {test::sixteenArm(), test::offsetWristArm(), test::bentWristArm(), test::parallelArm()}) {
+    expectReproduced(arm.chain(), maker, 500, arm.name);
+  }
+  for (double size : {1e-9, 1e-6, 1e-4, 1e-2}) {
+    expectReproduced(test::perturbed(test::parallelArm().chain(), size, kSeed), maker, 300,
+                     "three almost parallel axes, " + std::to_string(std::log10(size)));
+  }
+}
+
+TEST(IkAlgebraic, FindsAsManyAsASearch) {
+  test::ArmMaker maker(kSeed + 3);
+  expectCounted(test::generalArm(maker, -1), maker, 6, "general");
+  expectCounted(test::generalArm(maker, 3), maker, 4, "slide");
+  expectCounted(test::offsetWristArm().chain(), maker, 4, "offset wrist");
+  expectCounted(test::bentWristArm().chain(), maker, 4, "bent wrist");
+}
+
+TEST(IkAlgebraic, FindsSixteen) {
+  const SerialChain chain = test::sixteenArm().chain();
+  const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+  ASSERT_TRUE(solver.has_value());
+  test::ArmMaker maker(kSeed + 4);
+  AlgebraicSolutions solutions;
+  Pose target;
+  for (int i = 0; i < 100 && solutions.count < 16; ++i) {
+    target = forwardKinematics(chain, randomConfiguration(maker, chain));
+    solver->solve(target, solutions);
+  }
+  ASSERT_EQ(solutions.count, 16);
+  EXPECT_TRUE(solutions.complete);
+  expectLawful(chain, target, solutions);
+  SearchOptions options;
+  options.restarts = 3000;
+  options.timeout = 60.0;
+  options.max_solutions = 16;
+  EXPECT_EQ(search(chain, Task(), target, {}, options).solutions.size(), 16u);
+}
+
+/// A configuration between two where the Jacobian's determinant has different signs.
+VectorX singularConfiguration(const SerialChain& chain, test::ArmMaker& maker) {
+  Matrix6X J(6, 6);
+  const auto determinant = [&](const VectorX& q) {
+    geometricJacobian(chain, q, J);
+    return Matrix6(J).determinant();
+  };
+  VectorX low = randomConfiguration(maker, chain);
+  VectorX high = randomConfiguration(maker, chain);
+  while (determinant(low) * determinant(high) > 0.0) high = randomConfiguration(maker, chain);
+  for (int i = 0; i < 60; ++i) {
+    const VectorX middle = 0.5 * (low + high);
+    (determinant(middle) * determinant(low) > 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+TEST(IkAlgebraic, HoldsAtAndNearSingularities) {
+  test::ArmMaker maker(kSeed + 5);
+  AlgebraicSolutions solutions;
+  for (int arm = 0; arm < 20; ++arm) {
+    const SerialChain chain = test::generalArm(maker, arm % 2 == 0 ? -1 : arm % 6);
+    const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+    ASSERT_TRUE(solver.has_value());
+    for (double offset : {0.0, 1e-12, 1e-10, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
+      SCOPED_TRACE("arm " + std::to_string(arm) + ", offset " + std::to_string(offset));
+      VectorX q = singularConfiguration(chain, maker);
+      for (int i = 0; i < 6; ++i) q[i] += offset * maker.uniform(-1, 1);
+      const Pose target = forwardKinematics(chain, q);
+      solver->solve(target, solutions);
+      expectLawful(chain, target, solutions);
+      // At a double root an error of the pose is worth its square root.
+      EXPECT_LE(nearest(chain, solutions, q), 2e-6);
+    }
+  }
+}
+
+TEST(IkAlgebraic, FindsHalfTurns) {
+  test::ArmMaker maker(kSeed + 6);
+  const SerialChain chain = test::generalArm(maker, -1);
+  const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+  ASSERT_TRUE(solver.has_value());
+  AlgebraicSolutions solutions;
+  for (int i = 0; i < 64; ++i) {
+    VectorX q(6);
+    for (int k = 0; k < 6; ++k) q[k] = ((i >> k) & 1) == 0 ? 0.0 : kPi;
+    solver->solve(forwardKinematics(chain, q), solutions);
+    EXPECT_LE(nearest(chain, solutions, q), 1e-6) << q.transpose();
+  }
+}
+
+TEST(IkAlgebraic, TellsASelfMotion) {
+  const SerialChain chain = test::parallelArm().chain();
+  const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+  ASSERT_TRUE(solver.has_value());
+  test::ArmMaker maker(kSeed + 7);
+  AlgebraicSolutions solutions;
+  for (int i = 0; i < 20; ++i) {
+    VectorX q = randomConfiguration(maker, chain);
+    q[4] = 0.0;  // Axes 2, 3, 4 and 6 are parallel: a four-bar moves.
+    const Pose target = forwardKinematics(chain, q);
+    solver->solve(target, solutions);
+    expectLawful(chain, target, solutions);
+    EXPECT_TRUE(solutions.degenerate);
+    EXPECT_FALSE(solutions.complete);
+  }
+}
+
+TEST(IkAlgebraic, IsDeterministic) {
+  test::ArmMaker maker(kSeed + 8);
+  const SerialChain chain = test::generalArm(maker, -1);
+  const std::optional<AlgebraicSolver> first = AlgebraicSolver::compile(chain);
+  const std::optional<AlgebraicSolver> second = AlgebraicSolver::compile(chain);
+  ASSERT_TRUE(first.has_value() && second.has_value());
+  EXPECT_EQ(first->method(), second->method());
+  for (int i = 0; i < 50; ++i) {
+    const Pose target = forwardKinematics(chain, randomConfiguration(maker, chain));
+    AlgebraicSolutions a;
+    AlgebraicSolutions b;
+    first->solve(target, a);
+    second->solve(target, b);
+    ASSERT_EQ(a.count, b.count);
+    EXPECT_EQ(std::memcmp(a.q.data(), b.q.data(), sizeof(a.q)), 0);
+  }
+}
+
+TEST(IkAlgebraic, RefusesWhatItDoesNotServe) {
+  test::ArmMaker maker(kSeed + 9);
+  std::vector<Axis> axes;
+  for (int i = 0; i < 6; ++i) axes.push_back(test::ArmMaker::turn(maker.direction(), maker.vector(0.6)));
+  std::vector<Axis> five(axes.begin(), axes.begin() + 5);
+  EXPECT_FALSE(AlgebraicSolver::compile(test::ArmMaker::chain(five, Pose(), Pose())).has_value());
+  std::vector<Axis> slides = axes;
+  slides[0].prismatic = slides[1].prismatic = slides[3].prismatic = slides[4].prismatic = true;
+  EXPECT_FALSE(AlgebraicSolver::compile(test::ArmMaker::chain(slides, Pose(), Pose())).has_value());
+  for (Axis& axis : axes) axis.direction = Vector3::UnitZ();
+  EXPECT_FALSE(AlgebraicSolver::compile(test::ArmMaker::chain(axes, Pose(), Pose())).has_value());
+}
+
+TEST(IkAlgebraic, LawsCanFail) {
+  test::ArmMaker maker(kSeed + 10);
+  const SerialChain chain = test::generalArm(maker, -1);
+  const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+  ASSERT_TRUE(solver.has_value());
+  const VectorX q = randomConfiguration(maker, chain);
+  Pose moved = forwardKinematics(chain, q);
+  moved.p.x() += 1e-4;
+  AlgebraicSolutions solutions;
+  solver->solve(moved, solutions);
+  EXPECT_GT(nearest(chain, solutions, q), 1e-6);
+}
+
+}  // namespace
+}  // namespace screwline
