@@ -60,6 +60,26 @@ std::vector<Profile> singleMoves() {
   };
 }
 
+std::vector<Profile> jerkLimitedMoves() {
+  return {
+      {{"double_s", "one s(tau) of seven phases of constant jerk for all joints: the shortest within the limits", {}},
+       2,
+       2,
+       false,
+       WaypointDerivatives::kNone,
+       buildDoubleS},
+      {{"time_optimal",
+        "the shortest jerk-limited motion of each joint, all of the duration of the slowest; velocities and "
+        "accelerations at both ends from the waypoints, else zero",
+        {}},
+       2,
+       2,
+       false,
+       WaypointDerivatives::kAll,
+       buildTimeOptimal},
+  };
+}
+
 std::vector<Profile> viaMoves() {
   const ParameterInfo via_tau{"via_tau",
                               "fraction of the duration at which the via is due, in (0, 1); 0.5 if neither it nor the "
@@ -157,7 +177,7 @@ std::vector<Profile> freeMotions() {
 const std::vector<Profile>& registry() {
   static const std::vector<Profile> profiles = [] {
     std::vector<Profile> all = singleMoves();
-    for (const auto& group : {viaMoves(), multipointMoves(), freeMotions()})
+    for (const auto& group : {jerkLimitedMoves(), viaMoves(), multipointMoves(), freeMotions()})
       all.insert(all.end(), group.begin(), group.end());
     return all;
   }();

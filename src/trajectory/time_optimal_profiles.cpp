@@ -1,0 +1,102 @@
+#include <cmath>
+#include <memory>
+
+#include "screwline/exception.h"
+#include "screwline/trajectory/double_s.h"
+#include "screwline/trajectory/format.h"
+#include "screwline/trajectory/profile.h"
+#include "screwline/trajectory/segment_times.h"
+#include "screwline/trajectory/state_to_state.h"
+
+namespace screwline {
+namespace {
+
+void requireJerkLimit(const ProfileContext& context, int joint) {
+  if (std::isfinite(context.limits.jerk[joint])) return;
+  throw InputError(AnswerCode::kInvalidGoal, indexed("jerk_limits", static_cast<std::size_t>(joint)) +
+                                                 " is infinite, profile '" + context.request.profile +
+                                                 "' needs a finite one");
+}
+
+EndState stateOf(const PathPoint& waypoint, int joint) {
+  return {waypoint.position[joint], waypoint.velocity.size() > 0 ? waypoint.velocity[joint] : 0.0,
+          waypoint.acceleration.size() > 0 ? waypoint.acceleration[joint] : 0.0};
+}
+
+/// A state of which the velocity has to leave its limits is refused here: a plan keeps the limits from its start on.
+void requireWayOut(const EndState& state, const AxisLimits& limits, int joint) {
+  const StateCheck check = checkState(state, limits, true);
+  if (check.fault == StateFault::kNone) return;
+  throw InputError(AnswerCode::kLimitsInfeasible,
+                   "waypoints[0]: joint " + std::to_string(joint) + " has " +
+                       (check.fault == StateFault::kVelocity ? "velocity " : "acceleration ") + number(check.value) +
+                       (check.fault == StateFault::kVelocity ? " with its acceleration" : "") + ", feasible is " +
+                       number(check.feasible.lower) + " to " + number(check.feasible.upper));
+}
+
+void ask(const ProfileContext& context, StateToState& question) {
+  if (context.joints() > kMaxJoints) {
+    throw InputError(AnswerCode::kTooLarge, "the robot has " + std::to_string(context.joints()) +
+                                                " joints, profile 'time_optimal' plans at most " +
+                                                std::to_string(kMaxJoints));
+  }
+  question.joints = context.joints();
+  for (int joint = 0; joint < question.joints; ++joint) {
+    const std::size_t j = static_cast<std::size_t>(joint);
+    requireJerkLimit(context, joint);
+    question.from[j] = stateOf(context.waypoints().front(), joint);
+    question.to[j] = stateOf(context.waypoints().back(), joint);
+    question.limits[j] = axisLimits(context.limits, joint);
+    requireWayOut(question.from[j], question.limits[j], joint);
+  }
+}
+
+void answer(const StateToState& question, StateToStateMotion& motion) {
+  moveStateToState(question, motion);
+  if (motion.status == MotionStatus::kFound) return;
+  const bool infeasible = motion.status == MotionStatus::kGoal || motion.status == MotionStatus::kPosition;
+  throw InputError(infeasible ? AnswerCode::kLimitsInfeasible : AnswerCode::kInvalidGoal,
+                   "profile 'time_optimal': " + describe(motion));
+}
+
+}  // namespace
+
+ProfileDraft buildTimeOptimal(const ProfileContext& context) {
+  if (nothingMoves(context.waypoints())) return holdStill(context);
+  const auto question = std::make_unique<StateToState>();
+  const auto motion = std::make_unique<StateToStateMotion>();
+  ask(context, *question);
+  answer(*question, *motion);
+  const double shortest = motion->duration;
+  const double wanted = context.duration > 0.0 ? context.duration : noLessThanShortest(shortest);
+  if (wanted != shortest) {
+    question->least_duration = wanted;
+    answer(*question, *motion);
+  }
+  if (context.duration > 0.0 && motion->duration > wanted * (1.0 + kLimitTolerance)) {
+    const std::string blocked =
+        wanted > shortest ? "; from the given duration on it is " + number(motion->duration) + " s" : "";
+    throw InputError(AnswerCode::kLimitsInfeasible,
+                     "profile 'time_optimal' in " + number(wanted) +
+                         " s: no motion within the limits; the shortest feasible duration is " + number(shortest) +
+                         " s" + blocked);
+  }
+  ProfileDraft draft;
+  draft.trajectory = trajectoryOf(*motion);
+  draft.waypoint_times = {0.0, draft.trajectory.duration()};
+  return draft;
+}
+
+ProfileDraft buildDoubleS(const ProfileContext& context) {
+  const VectorX delta = context.waypoints().back().position - context.waypoints().front().position;
+  AxisLimits limits;
+  for (int joint = 0; joint < context.joints(); ++joint) {
+    if (delta[joint] == 0.0) continue;
+    requireJerkLimit(context, joint);
+    limits = narrowed(limits, axisLimits(context.limits, joint), delta[joint]);
+  }
+  if (delta.isZero(0.0)) return scaleBetweenEnds(context, TimeLaw::polynomial345());
+  return scaleBetweenEnds(context, timeLawOf(shortestDoubleS(limits)));
+}
+
+}  // namespace screwline
