@@ -7,33 +7,33 @@ namespace screwline {
 namespace {
 
 constexpr double kRounding = 1e-12;
+constexpr std::size_t kCruise = 3;  ///< Of an arc's phases.
 
 struct Weighted {
   const ExtremeMotion::Arc* arc;
   std::array<double, 7> jerks;
 };
 
-/// Both arcs' phases, cut at the breakpoints of either, with the weighted sum of their jerks. Breakpoints closer than
-/// rounding are one.
-void appendCombined(const Weighted& up, double weight, const Weighted& down, double T, JerkPhases& phases) {
-  const double sliver = 1e-15 * T;
+/// Both arcs' phases, cut at the breakpoints of either, with the weighted sum of their jerks. What rounding
+/// leaves of the longer one at the end is dropped.
+void appendCombined(const Weighted& up, double weight, const Weighted& down, JerkPhases& phases) {
   std::size_t i = 0;
   std::size_t k = 0;
   double left_up = up.arc->length[0];
   double left_down = down.arc->length[0];
   for (;;) {
-    while (left_up <= sliver && i + 1 < 7) left_up += up.arc->length[++i];
-    while (left_down <= sliver && k + 1 < 7) left_down += down.arc->length[++k];
+    while (left_up <= 0.0 && i + 1 < 7) left_up += up.arc->length[++i];
+    while (left_down <= 0.0 && k + 1 < 7) left_down += down.arc->length[++k];
     const double step = std::min(left_up, left_down);
-    if (step <= sliver) break;
-    phases.append(step, weight * up.jerks[i] + (1.0 - weight) * down.jerks[k]);
+    if (step <= 0.0) break;
+    phases.append(step, weight * up.jerks[i] + (1.0 - weight) * down.jerks[k], i == kCruise && k == kCruise);
     left_up -= step;
     left_down -= step;
   }
 }
 
 void appendScaled(const Weighted& arc, double weight, JerkPhases& phases) {
-  for (std::size_t i = 0; i < 7; ++i) phases.append(arc.arc->length[i], weight * arc.jerks[i]);
+  for (std::size_t i = 0; i < 7; ++i) phases.append(arc.arc->length[i], weight * arc.jerks[i], i == kCruise);
 }
 
 }  // namespace
@@ -41,6 +41,8 @@ void appendScaled(const Weighted& arc, double weight, JerkPhases& phases) {
 AxisMotion::AxisMotion(const EndState& first, const EndState& last, const AxisLimits& limits)
     : displacement_(last.position - first.position),
       speed_(std::max(std::abs(first.velocity), std::abs(last.velocity))),
+      settling_((std::abs(first.acceleration) + std::abs(last.acceleration)) *
+                (1.0 / limits.jerk.upper - 1.0 / limits.jerk.lower)),
       rests_(speed_ == 0.0 && first.acceleration == 0.0 && last.acceleration == 0.0),
       up_(first, last, limits),
       down_(ExtremeMotion::downward(first, last, limits)) {}
@@ -60,7 +62,7 @@ double AxisMotion::nextDuration(double T) const {
       end = window.last;
       after = window.next;
     }
-    const double tolerance = kRounding * (std::abs(displacement_) + speed_ * T);
+    const double tolerance = kRounding * (std::abs(displacement_) + speed_ * (T + settling_));
     const ExtremeMotion::Arc highest = up_.at(T);
     const ExtremeMotion::Arc lowest = down_.at(T);
     double reached = T;
@@ -95,7 +97,7 @@ void AxisMotion::appendPhases(double T, JerkPhases& phases) const {
   constexpr double kWhole = 1e-14;
   if (share > 1.0 - kWhole) return appendScaled(up, 1.0, phases);
   if (share < kWhole) return appendScaled(down, 1.0, phases);
-  appendCombined(up, share, down, T, phases);
+  appendCombined(up, share, down, phases);
 }
 
 }  // namespace screwline

@@ -13,12 +13,13 @@ void include(Range& range, double value) {
 
 /// The positions at which the velocity v + a t + j t^2 / 2 crosses zero inside the phase.
 void includeTurns(Range& range, const EndState& state, const JerkPhase& phase) {
+  if (phase.cruise) return;
   const double discriminant = state.acceleration * state.acceleration - 2.0 * phase.jerk * state.velocity;
   if (discriminant < 0.0) return;
   // The root with no cancellation, the other one by the product of the roots.
   const double q = -(state.acceleration + std::copysign(std::sqrt(discriminant), state.acceleration));
   for (double t : {phase.jerk != 0.0 ? q / phase.jerk : -1.0, q != 0.0 ? 2.0 * state.velocity / q : -1.0}) {
-    if (t > 0.0 && t < phase.length) include(range, advanced(state, phase.jerk, t).position);
+    if (t > 0.0 && t < phase.length) include(range, advanced(state, phase, t).position);
   }
 }
 
@@ -32,7 +33,7 @@ double JerkPhases::duration() const {
 
 EndState JerkPhases::end() const {
   EndState state = start;
-  for (std::size_t k = 0; k < count; ++k) state = advanced(state, phases[k].jerk, phases[k].length);
+  for (std::size_t k = 0; k < count; ++k) state = advanced(state, phases[k], phases[k].length);
   return state;
 }
 
@@ -40,8 +41,8 @@ EndState JerkPhases::at(double t) const {
   if (t < 0.0) return {start.position, 0.0, 0.0};
   EndState state = start;
   for (std::size_t k = 0; k < count; ++k) {
-    if (t <= phases[k].length) return advanced(state, phases[k].jerk, t);
-    state = advanced(state, phases[k].jerk, phases[k].length);
+    if (t <= phases[k].length) return advanced(state, phases[k], t);
+    state = advanced(state, phases[k], phases[k].length);
     t -= phases[k].length;
   }
   return t > 0.0 ? EndState{state.position, 0.0, 0.0} : state;
@@ -57,8 +58,8 @@ AxisLimits JerkPhases::extent() const {
     const JerkPhase& phase = phases[k];
     includeTurns(extent.position, state, phase);
     const double level = phase.jerk != 0.0 ? -state.acceleration / phase.jerk : -1.0;  // Where acceleration vanishes.
-    if (level > 0.0 && level < phase.length) include(extent.velocity, advanced(state, phase.jerk, level).velocity);
-    state = advanced(state, phase.jerk, phase.length);
+    if (level > 0.0 && level < phase.length) include(extent.velocity, advanced(state, phase, level).velocity);
+    state = advanced(state, phase, phase.length);
     include(extent.position, state.position);
     include(extent.velocity, state.velocity);
     include(extent.acceleration, state.acceleration);

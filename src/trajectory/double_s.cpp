@@ -34,7 +34,7 @@ JerkPhases symmetricDoubleS(double v, double a, double j) {
   JerkPhases phases;
   const double lengths[] = {ramp, plateau, ramp, cruise, ramp, plateau, ramp};
   const double signs[] = {1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0};
-  for (int k = 0; k < 7; ++k) phases.append(lengths[k], signs[k] * j);
+  for (int k = 0; k < 7; ++k) phases.append(lengths[k], signs[k] * j, k == 3);
   return phases;
 }
 
@@ -72,7 +72,7 @@ TimeLaw timeLawOf(const JerkPhases& phases) {
     const double jerk = phases.phases[k].jerk;
     pieces.setPiece(k, 0,
                     {{state.position, state.velocity * h, 0.5 * state.acceleration * h * h, jerk * h * h * h / 6.0}});
-    state = advanced(state, jerk, h);
+    state = advanced(state, phases.phases[k], h);
   }
   return TimeLaw(std::move(pieces));
 }

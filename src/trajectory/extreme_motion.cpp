@@ -95,13 +95,13 @@ ExtremeMotion::Window ExtremeMotion::window() const {
   const double least_peak = std::max(a0_, a1_);
   if (squared <= 0.0) return {};
   const double needed = std::sqrt(squared);
-  if (least_peak >= needed) return {};
+  const double slack = kRounding * (std::abs(a0_) + std::abs(a1_));
+  if (least_peak >= needed - slack) return {};
   const auto lengthWith = [&](double peak) { return peak * m_ - a0_ * iju_ - a1_ * ijd_; };
   Window window;
   window.next =
       needed <= amax_ ? lengthWith(needed) : lengthWith(amax_) + (squared - amax_ * amax_) * m_ / (2.0 * amax_);
   // Both accelerations point down: a short T leaves them little time to pull, a long one must come up through zero.
-  const double slack = kRounding * (std::abs(a0_) + std::abs(a1_));
   window.last = least_peak <= slack - needed ? std::max(least(), lengthWith(-needed)) + slack * m_ : -1.0;
   return window;
 }
@@ -168,9 +168,46 @@ double ExtremeMotion::bracketEnd(double from, double distance, Arc& arc) const {
   return from + step;
 }
 
-double ExtremeMotion::reach(double distance, double from, const Arc& at_from, double end) const {
+/// The displacement is concave in T up to here and convex from here to the first cruise: where the second derivative, a
+/// closed form in the difference of peak and trough, changes its sign.
+double ExtremeMotion::inflection() const {
+  const double share = 1.0 + 2.0 * ju_ * ijd_;
+  double difference = std::sqrt(std::abs(sum_scale_) / std::sqrt(share));
+  if (difference <= 0.0) return 0.0;
+  const double sum = sum_scale_ / difference;
+  const double held = sum > 0.0 ? amax_ : amin_;
+  if (0.5 * (sum + difference) <= amax_ && 0.5 * (sum - difference) >= amin_) {
+    return difference * m_ + (a1_ - a0_) * iju_;
+  }
+  difference = std::abs(held) * (1.0 - 0.5 * ijd_ * inverse_m_);
+  const double ends = (a0_ - a1_) * (a0_ + a1_ - 2.0 * held) * iju_;  // (a0 - held)^2 - (a1 - held)^2, over ju
+  return (v1_ - v0_) / held + 0.5 * (difference * difference * m_ + (held > 0.0 ? ends : -ends)) / std::abs(held);
+}
+
+/// Where the displacement is greatest between a rising and a falling one. @pre concave between.
+double ExtremeMotion::crest(double rising, double falling, Arc& arc) const {
+  for (int i = 0; i < 60 && falling - rising > 1e-15 * falling; ++i) {
+    const double middle = 0.5 * (rising + falling);
+    arc = at(middle);
+    (arc.slope > 0.0 ? rising : falling) = middle;
+  }
+  arc = at(rising);
+  return rising;
+}
+
+double ExtremeMotion::reach(double distance, double from, Arc at_from, double end) const {
   if (from >= cruise_from_) return from + (distance - at_from.displacement) / vmax_;
   double high = std::min(cruise_from_, end);
+  const double bend = std::min(inflection(), high);
+  if (from < bend) {
+    double peak = bend;
+    Arc at_peak = at(bend);
+    const Arc at_bend = at_peak;
+    if (at_from.slope > 0.0 && at_bend.slope < 0.0) peak = crest(from, bend, at_peak);
+    if (at_peak.displacement >= distance) return solve(distance, from, at_from, peak, at_peak);
+    from = bend;
+    at_from = at_bend;
+  }
   Arc at_high;
   if (std::isfinite(high)) {
     at_high = high == cruise_from_ ? fastest_ : at(high);
@@ -189,11 +226,10 @@ double ExtremeMotion::solve(double distance, double low, Arc at_low, double high
     const double below = at_low.displacement - distance;   // < 0
     const double above = at_high.displacement - distance;  // >= 0
     if (above <= 2e-16 * scale || high - low <= 4e-16 * high) return high;
-    // Convex: the tangent at the high end stays right of the root, the chord left of it.
+    // Where the curve does not bend the other way, the root lies between the chord and the tangent.
     const double tangent = at_high.slope > 0.0 ? high - above / at_high.slope : low;
     const double chord = low - below * (high - low) / (above - below);
-    const double right = tangent > low ? tangent : 0.5 * (low + high);
-    double next = right;
+    double next = tangent;
     if (at_low.slope > 0.0 && at_high.slope > 0.0) {
       // T as a cubic of the displacement, with values and slopes at both ends.
       const double width = above - below;
@@ -203,7 +239,7 @@ double ExtremeMotion::solve(double distance, double low, Arc at_low, double high
       const double span = high - low;
       next = low + w * (s0 + w * ((3.0 * span - 2.0 * s0 - s1) + w * (s0 + s1 - 2.0 * span)));
     }
-    if (!(next >= chord && next <= right)) next = right;
+    if (!(next >= std::min(chord, tangent) && next <= std::max(chord, tangent))) next = tangent;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (!(next > low && next < high)) return high;
     const Arc arc = at(next);

@@ -87,7 +87,7 @@ bool layStraight(const StateToState& question, std::size_t leader, StateToStateM
     motion.phases[j].start = from[j];
     motion.phases[j].count = lead.count;
     for (std::size_t k = 0; k < lead.count; ++k) {
-      motion.phases[j].phases[k] = {lead.phases[k].length, lead.phases[k].jerk * factor};
+      motion.phases[j].phases[k] = {lead.phases[k].length, lead.phases[k].jerk * factor, lead.phases[k].cruise};
     }
   }
   return true;

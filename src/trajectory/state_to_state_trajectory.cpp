@@ -9,7 +9,7 @@
 namespace screwline {
 namespace {
 
-/// Instants at which any joint changes its jerk, ascending from 0 to the duration; those closer than rounding are one.
+/// Instants at which any joint changes its jerk, ascending from 0 to the duration.
 std::vector<double> commonBreaks(const StateToStateMotion& motion) {
   std::vector<double> instants;
   for (std::size_t j = 0; j < static_cast<std::size_t>(motion.joints); ++j) {
@@ -17,10 +17,9 @@ std::vector<double> commonBreaks(const StateToStateMotion& motion) {
     for (std::size_t k = 0; k < motion.phases[j].count; ++k) instants.push_back(t += motion.phases[j].phases[k].length);
   }
   std::sort(instants.begin(), instants.end());
-  const double sliver = 1e-13 * motion.duration;
   std::vector<double> breaks{0.0};
   for (double t : instants) {
-    if (t > breaks.back() + sliver && t < motion.duration - sliver) breaks.push_back(t);
+    if (t > breaks.back() && t < motion.duration) breaks.push_back(t);
   }
   breaks.push_back(motion.duration);
   return breaks;
@@ -34,11 +33,13 @@ void layJoint(PiecewisePolynomial& pieces, int joint, const JerkPhases& phases) 
     const double h = pieces.length(k);
     const double middle = pieces.breaks[k] + 0.5 * h;
     while (phase < phases.count && begin + phases.phases[phase].length < middle) {
-      state = advanced(state, phases.phases[phase].jerk, phases.phases[phase].length);
+      state = advanced(state, phases.phases[phase], phases.phases[phase].length);
       begin += phases.phases[phase++].length;
     }
-    const double jerk = phase < phases.count ? phases.phases[phase].jerk : 0.0;
-    const EndState now = advanced(state, jerk, pieces.breaks[k] - begin);
+    const JerkPhase rest;
+    const JerkPhase& current = phase < phases.count ? phases.phases[phase] : rest;
+    const double jerk = current.jerk;
+    const EndState now = advanced(state, current, pieces.breaks[k] - begin);
     pieces.setPiece(k, joint,
                     {{now.position, now.velocity * h, 0.5 * now.acceleration * h * h, jerk * h * h * h / 6.0}});
   }

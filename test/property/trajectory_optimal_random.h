@@ -97,7 +97,7 @@ inline std::string brokenLaw(const StateToState& question, const StateToStateMot
     if (!(std::abs(end.acceleration - goal.acceleration) <= 1e-8 * std::max(1.0, e.acceleration.peak()))) {
       return "end acceleration" + joint;
     }
-    if (!(std::abs(motion.phases[j].duration() - T) <= 1e-11 * T)) return "duration" + joint;
+    if (!(std::abs(motion.phases[j].duration() - T) <= 1e-11 * T + 1e-14)) return "duration" + joint;
     if (!(T >= motion.shortest[j] && T >= question.least_duration)) return "least duration" + joint;
   }
   return {};

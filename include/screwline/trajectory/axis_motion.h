@@ -50,6 +50,7 @@ class AxisMotion {
  private:
   double displacement_ = 0.0;
   double speed_ = 0.0;  ///< Larger of the end velocities' magnitudes.
+  double settling_ = 0.0;      ///< [s] To change the end accelerations by themselves.
   bool rests_ = true;   ///< At both ends.
   ExtremeMotion up_;
   ExtremeMotion down_;

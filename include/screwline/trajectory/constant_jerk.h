@@ -33,7 +33,14 @@ inline EndState advanced(const EndState& state, double jerk, double t) {
 struct JerkPhase {
   double length = 0.0;  ///< [s] Positive.
   double jerk = 0.0;
+  bool cruise = false;  ///< No acceleration either: what rounding left of it would grow with the square of the time.
 };
+
+/// The state `t` seconds into a phase that is entered in `state`.
+inline EndState advanced(const EndState& state, const JerkPhase& phase, double t) {
+  if (phase.cruise) return {state.position + t * state.velocity, state.velocity, 0.0};
+  return advanced(state, phase.jerk, t);
+}
 
 /// The motion of one joint as phases of constant jerk from a start state: C2, at most kCapacity phases. A plain value
 /// of fixed size: nothing here allocates or throws.
@@ -45,8 +52,8 @@ struct JerkPhases {
   std::array<JerkPhase, kCapacity> phases;
 
   /// Appends a phase; one that takes no time is left out. @pre room for it.
-  void append(double length, double jerk) {
-    if (length > 0.0) phases[count++] = {length, jerk};
+  void append(double length, double jerk, bool cruise = false) {
+    if (length > 0.0) phases[count++] = {length, jerk, cruise};
   }
 
   double duration() const;

@@ -46,10 +46,9 @@ class ExtremeMotion {
   /// @pre T is one that velocity and acceleration allow.
   Arc at(double T) const;
 
-  /// The instant from which on the displacement is at least `distance` again, given the arc at `from` that falls short
-  /// of it; infinity where it is not before `end`. The displacement is convex in T up to the first cruise, and linear
-  /// from there.
-  double reach(double distance, double from, const Arc& at_from, double end) const;
+  /// The first instant after `from`, where the arc falls short of it, with a displacement of `distance`; infinity where
+  /// there is none before `end`. The displacement is concave in T, then convex up to the first cruise, then linear.
+  double reach(double distance, double from, Arc at_from, double end) const;
 
   /// Jerks of the seven phases.
   std::array<double, 7> jerks() const { return {ju_, 0.0, -jd_, 0.0, -jd_, 0.0, ju_}; }
@@ -59,6 +58,8 @@ class ExtremeMotion {
   void finish(Arc& arc) const;
   Arc withPlateaus(double T, double peak, double trough) const;
   Arc arcOf(double peak, double top, double trough, double bottom) const;
+  double inflection() const;
+  double crest(double rising, double falling, Arc& arc) const;
   double bracketEnd(double from, double distance, Arc& arc) const;
   double solve(double distance, double low, Arc at_low, double high, Arc at_high) const;
 
