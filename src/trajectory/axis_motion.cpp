@@ -7,7 +7,8 @@ namespace screwline {
 namespace {
 
 constexpr double kRounding = 1e-12;
-constexpr std::size_t kCruise = 3;  ///< Of an arc's phases.
+constexpr double kResolution = 1e-15;  ///< Of a given position.
+constexpr std::size_t kCruise = 3;     ///< Of an arc's phases.
 
 struct Weighted {
   const ExtremeMotion::Arc* arc;
@@ -40,6 +41,7 @@ void appendScaled(const Weighted& arc, double weight, JerkPhases& phases) {
 
 AxisMotion::AxisMotion(const EndState& first, const EndState& last, const AxisLimits& limits)
     : displacement_(last.position - first.position),
+      grain_(kResolution * (std::abs(first.position) + std::abs(last.position))),
       speed_(std::max(std::abs(first.velocity), std::abs(last.velocity))),
       settling_((std::abs(first.acceleration) + std::abs(last.acceleration)) *
                 (1.0 / limits.jerk.upper - 1.0 / limits.jerk.lower)),
@@ -62,7 +64,7 @@ double AxisMotion::nextDuration(double T) const {
       end = window.last;
       after = window.next;
     }
-    const double tolerance = kRounding * (std::abs(displacement_) + speed_ * (T + settling_));
+    const double tolerance = grain_ + kRounding * (std::abs(displacement_) + speed_ * (T + settling_));
     const ExtremeMotion::Arc highest = up_.at(T);
     const ExtremeMotion::Arc lowest = down_.at(T);
     double reached = T;

@@ -7,7 +7,8 @@ namespace screwline {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-12;  ///< A boundary case is taken as inside, whatever the last bits say.
+constexpr double kRounding = 1e-12;    ///< A boundary case is taken as inside, whatever the last bits say.
+constexpr double kResolution = 1e-14;  ///< Of a given number, a few steps of the last place.
 
 EndState turned(const EndState& state) {
   return {-state.position, -state.velocity, -state.acceleration};
@@ -93,16 +94,18 @@ ExtremeMotion::Window ExtremeMotion::window() const {
   // With jerk up, then down, the change of velocity is m (A^2 - R^2) / 2 more than asked for, A the peak between.
   const double squared = (2.0 * (v1_ - v0_) + a0_ * a0_ * iju_ + a1_ * a1_ * ijd_) * inverse_m_;
   const double least_peak = std::max(a0_, a1_);
-  if (squared <= 0.0) return {};
+  // Rounding of the velocities becomes its square root in R: it is weighed as a square.
+  const double negligible =
+      kRounding * (a0_ * a0_ + a1_ * a1_) + kResolution * (std::abs(v0_) + std::abs(v1_)) * inverse_m_;
+  const bool inside = squared <= least_peak * least_peak + negligible;
+  if (squared <= negligible || (least_peak >= 0.0 && inside)) return {};
   const double needed = std::sqrt(squared);
-  const double slack = kRounding * (std::abs(a0_) + std::abs(a1_));
-  if (least_peak >= needed - slack) return {};
   const auto lengthWith = [&](double peak) { return peak * m_ - a0_ * iju_ - a1_ * ijd_; };
   Window window;
   window.next =
       needed <= amax_ ? lengthWith(needed) : lengthWith(amax_) + (squared - amax_ * amax_) * m_ / (2.0 * amax_);
   // Both accelerations point down: a short T leaves them little time to pull, a long one must come up through zero.
-  window.last = least_peak <= slack - needed ? std::max(least(), lengthWith(-needed)) + slack * m_ : -1.0;
+  window.last = inside ? std::max(least(), lengthWith(-needed)) + kRounding * least() : -1.0;
   return window;
 }
 

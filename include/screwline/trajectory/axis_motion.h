@@ -49,9 +49,10 @@ class AxisMotion {
 
  private:
   double displacement_ = 0.0;
-  double speed_ = 0.0;  ///< Larger of the end velocities' magnitudes.
-  double settling_ = 0.0;      ///< [s] To change the end accelerations by themselves.
-  bool rests_ = true;   ///< At both ends.
+  double grain_ = 0.0;     ///< What rounding of the given positions leaves open.
+  double speed_ = 0.0;     ///< Larger of the end velocities' magnitudes.
+  double settling_ = 0.0;  ///< [s] To change the end accelerations by themselves.
+  bool rests_ = true;      ///< At both ends.
   ExtremeMotion up_;
   ExtremeMotion down_;
 };
