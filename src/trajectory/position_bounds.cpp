@@ -50,27 +50,34 @@ bool appendByCruise(const EndState& first, const EndState& last, const AxisLimit
   return true;
 }
 
+constexpr int kScan = 32;
+
+/// Velocities that are worth a try: `share` of the way from the lowest to the highest.
+double triedVelocity(const EndState& from, const EndState& to, const AxisLimits& limits, double T, double share) {
+  const double settling = 0.5 / limits.jerk.upper - 0.5 / limits.jerk.lower;
+  const double span = 2.0 * (std::abs(from.velocity) + std::abs(to.velocity)) +
+                      4.0 * std::abs(to.position - from.position) / T +
+                      2.0 * settling * (from.acceleration * from.acceleration + to.acceleration * to.acceleration);
+  const double low = std::max(limits.velocity.lower, -span);
+  return low + (std::min(limits.velocity.upper, span) - low) * share;
+}
+
 /// Among the motions by way of a constant velocity one that meets the goal and stays inside. Displacements rise with
 /// the velocity: between neighbours of a scan on either side of the goal it is found by halving.
 bool cruiseInside(const StateToState& question, std::size_t j, double T, std::size_t braking, JerkPhases& phases) {
-  constexpr int kSteps = 32;
   const AxisLimits& limits = question.limits[j];
   phases.count = braking;
   const EndState from = phases.end();
   const EndState& to = question.to[j];
-  const double span =
-      2.0 * (std::abs(from.velocity) + std::abs(to.velocity)) + 4.0 * std::abs(to.position - from.position) / T;
-  const double low = std::max(limits.velocity.lower, -span);
-  const double high = std::min(limits.velocity.upper, span);
   const auto miss = [&](double velocity) {
     phases.count = braking;
     if (!appendByCruise(from, to, limits, velocity, T, phases)) return std::nan("");
     return phases.end().position - to.position;
   };
-  double before = low;
-  double miss_before = miss(low);
-  for (int i = 1; i <= kSteps; ++i) {
-    const double velocity = low + (high - low) * i / kSteps;
+  double before = triedVelocity(from, to, limits, T, 0.0);
+  double miss_before = miss(before);
+  for (int i = 1; i <= kScan; ++i) {
+    const double velocity = triedVelocity(from, to, limits, T, double(i) / kScan);
     const double miss_here = miss(velocity);
     double lower = before;
     double upper = velocity;
@@ -86,6 +93,28 @@ bool cruiseInside(const StateToState& question, std::size_t j, double T, std::si
     if (std::abs(phases.end().position - to.position) < kSlack && inside(phases.extent().position, limits.position)) {
       return true;
     }
+  }
+  return false;
+}
+
+/// First as fast as can be to some velocity, from there any motion to the goal in the time that is left.
+bool turnInside(const StateToState& question, std::size_t j, double T, std::size_t braking, JerkPhases& phases) {
+  const AxisLimits& limits = question.limits[j];
+  phases.count = braking;
+  const EndState from = phases.end();
+  const EndState& to = question.to[j];
+  for (int i = 0; i <= kScan; ++i) {
+    phases.count = braking;
+    appendChange(from, triedVelocity(from, to, limits, T, double(i) / kScan), limits, phases);
+    double left = T;
+    for (std::size_t k = braking; k < phases.count; ++k) left -= phases.phases[k].length;
+    if (left < 0.0 || !inside(phases.extent().position, limits.position)) continue;
+    EndState turn = phases.end();
+    turn.acceleration = 0.0;
+    const AxisMotion rest(turn, to, limits);
+    if (rest.nextDuration(left) != left) continue;
+    rest.appendPhases(left, phases);
+    if (inside(phases.extent().position, limits.position)) return true;
   }
   return false;
 }
@@ -137,7 +166,10 @@ std::size_t layInside(const StateToState& question, StateToStateMotion& motion, 
     phases.count = motion.braking_phases[j];
     motion.axes[j].appendPhases(T - motion.braking[j], phases);
     if (inside(phases.extent().position, question.limits[j].position)) continue;
-    if (!cruiseInside(question, j, T - motion.braking[j], motion.braking_phases[j], phases)) return j;
+    const double left = T - motion.braking[j];
+    const std::size_t braking = motion.braking_phases[j];
+    if (cruiseInside(question, j, left, braking, phases) || turnInside(question, j, left, braking, phases)) continue;
+    return j;
   }
   motion.duration = T;
   return n;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -11,11 +12,19 @@
 namespace screwline {
 namespace {
 
-void requireJerkLimit(const ProfileContext& context, int joint) {
-  if (std::isfinite(context.limits.jerk[joint])) return;
-  throw InputError(AnswerCode::kInvalidGoal, indexed("jerk_limits", static_cast<std::size_t>(joint)) +
-                                                 " is infinite, profile '" + context.request.profile +
-                                                 "' needs a finite one");
+/// The joint's limits. A jerk that reaches full acceleration within a nanosecond is lowered to one that takes it: ramps
+/// below the resolution of time could not be told from steps.
+AxisLimits limitsOf(const ProfileContext& context, int joint) {
+  constexpr double kShortestRamp = 1e-9;
+  if (!std::isfinite(context.limits.jerk[joint])) {
+    throw InputError(AnswerCode::kInvalidGoal, indexed("jerk_limits", static_cast<std::size_t>(joint)) +
+                                                   " is infinite, profile '" + context.request.profile +
+                                                   "' needs a finite one");
+  }
+  AxisLimits limits = axisLimits(context.limits, joint);
+  const double most = std::min(limits.jerk.upper, limits.acceleration.upper / kShortestRamp);
+  limits.jerk = {-most, most};
+  return limits;
 }
 
 EndState stateOf(const PathPoint& waypoint, int joint) {
@@ -43,10 +52,9 @@ void ask(const ProfileContext& context, StateToState& question) {
   question.joints = context.joints();
   for (int joint = 0; joint < question.joints; ++joint) {
     const std::size_t j = static_cast<std::size_t>(joint);
-    requireJerkLimit(context, joint);
     question.from[j] = stateOf(context.waypoints().front(), joint);
     question.to[j] = stateOf(context.waypoints().back(), joint);
-    question.limits[j] = axisLimits(context.limits, joint);
+    question.limits[j] = limitsOf(context, joint);
     requireWayOut(question.from[j], question.limits[j], joint);
   }
 }
@@ -88,14 +96,14 @@ ProfileDraft buildTimeOptimal(const ProfileContext& context) {
 }
 
 ProfileDraft buildDoubleS(const ProfileContext& context) {
+  constexpr double kNoDisplacement = 1e-60;  // The limits on s would leave the range of a double.
   const VectorX delta = context.waypoints().back().position - context.waypoints().front().position;
   AxisLimits limits;
   for (int joint = 0; joint < context.joints(); ++joint) {
-    if (delta[joint] == 0.0) continue;
-    requireJerkLimit(context, joint);
-    limits = narrowed(limits, axisLimits(context.limits, joint), delta[joint]);
+    if (std::abs(delta[joint]) < kNoDisplacement) continue;
+    limits = narrowed(limits, limitsOf(context, joint), delta[joint]);
   }
-  if (delta.isZero(0.0)) return scaleBetweenEnds(context, TimeLaw::polynomial345());
+  if (delta.isZero(kNoDisplacement)) return scaleBetweenEnds(context, TimeLaw::polynomial345());
   return scaleBetweenEnds(context, timeLawOf(shortestDoubleS(limits)));
 }
 

@@ -213,7 +213,7 @@ TEST_F(TimeOptimal, PositionLimitsAreKeptOrThePositionThatBreaksThemIsNamed) {
     longer += motion_->duration > free * (1.0 + 1e-9);
   }
   EXPECT_GT(kept, 1000);
-  EXPECT_GT(longer, 5);
+  EXPECT_GT(longer, 0);
   EXPECT_GT(refused, 100);
   RecordProperty("kept_longer_refused",
                  std::to_string(kept) + " " + std::to_string(longer) + " " + std::to_string(refused));

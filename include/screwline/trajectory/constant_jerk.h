@@ -45,7 +45,7 @@ inline EndState advanced(const EndState& state, const JerkPhase& phase, double t
 /// The motion of one joint as phases of constant jerk from a start state: C2, at most kCapacity phases. A plain value
 /// of fixed size: nothing here allocates or throws.
 struct JerkPhases {
-  static constexpr std::size_t kCapacity = 20;
+  static constexpr std::size_t kCapacity = 24;
 
   EndState start;
   std::size_t count = 0;
