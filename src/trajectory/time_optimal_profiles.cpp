@@ -12,17 +12,19 @@
 namespace screwline {
 namespace {
 
-/// The joint's limits. A jerk that reaches full acceleration within a nanosecond is lowered to one that takes it: ramps
-/// below the resolution of time could not be told from steps.
-AxisLimits limitsOf(const ProfileContext& context, int joint) {
-  constexpr double kShortestRamp = 1e-9;
+/// Of the duration: a ramp of the acceleration takes at least this. The instants of shorter ones would be rounded to
+/// more than the limits tolerate.
+constexpr double kShortestRamp = 1e-6;
+
+/// The joint's limits, the jerk lowered where it would reach full acceleration in less than `ramp` [s].
+AxisLimits limitsOf(const ProfileContext& context, int joint, double ramp) {
   if (!std::isfinite(context.limits.jerk[joint])) {
     throw InputError(AnswerCode::kInvalidGoal, indexed("jerk_limits", static_cast<std::size_t>(joint)) +
                                                    " is infinite, profile '" + context.request.profile +
                                                    "' needs a finite one");
   }
   AxisLimits limits = axisLimits(context.limits, joint);
-  const double most = std::min(limits.jerk.upper, limits.acceleration.upper / kShortestRamp);
+  const double most = std::min(limits.jerk.upper, limits.acceleration.upper / ramp);
   limits.jerk = {-most, most};
   return limits;
 }
@@ -43,7 +45,7 @@ void requireWayOut(const EndState& state, const AxisLimits& limits, int joint) {
                        number(check.feasible.lower) + " to " + number(check.feasible.upper));
 }
 
-void ask(const ProfileContext& context, StateToState& question) {
+void ask(const ProfileContext& context, double ramp, StateToState& question) {
   if (context.joints() > kMaxJoints) {
     throw InputError(AnswerCode::kTooLarge, "the robot has " + std::to_string(context.joints()) +
                                                 " joints, profile 'time_optimal' plans at most " +
@@ -54,7 +56,7 @@ void ask(const ProfileContext& context, StateToState& question) {
     const std::size_t j = static_cast<std::size_t>(joint);
     question.from[j] = stateOf(context.waypoints().front(), joint);
     question.to[j] = stateOf(context.waypoints().back(), joint);
-    question.limits[j] = limitsOf(context, joint);
+    question.limits[j] = limitsOf(context, joint, ramp);
     requireWayOut(question.from[j], question.limits[j], joint);
   }
 }
@@ -73,7 +75,9 @@ ProfileDraft buildTimeOptimal(const ProfileContext& context) {
   if (nothingMoves(context.waypoints())) return holdStill(context);
   const auto question = std::make_unique<StateToState>();
   const auto motion = std::make_unique<StateToStateMotion>();
-  ask(context, *question);
+  ask(context, 1e-3 * kShortestTime, *question);
+  answer(*question, *motion);
+  ask(context, kShortestRamp * std::max(motion->duration, context.duration), *question);
   answer(*question, *motion);
   const double shortest = motion->duration;
   const double wanted = context.duration > 0.0 ? context.duration : noLessThanShortest(shortest);
@@ -98,13 +102,18 @@ ProfileDraft buildTimeOptimal(const ProfileContext& context) {
 ProfileDraft buildDoubleS(const ProfileContext& context) {
   constexpr double kNoDisplacement = 1e-60;  // The limits on s would leave the range of a double.
   const VectorX delta = context.waypoints().back().position - context.waypoints().front().position;
-  AxisLimits limits;
-  for (int joint = 0; joint < context.joints(); ++joint) {
-    if (std::abs(delta[joint]) < kNoDisplacement) continue;
-    limits = narrowed(limits, limitsOf(context, joint), delta[joint]);
-  }
   if (delta.isZero(kNoDisplacement)) return scaleBetweenEnds(context, TimeLaw::polynomial345());
-  return scaleBetweenEnds(context, timeLawOf(shortestDoubleS(limits)));
+  JerkPhases shortest;
+  for (double ramp : {1e-3 * kShortestTime, 0.0}) {
+    AxisLimits limits;
+    for (int joint = 0; joint < context.joints(); ++joint) {
+      if (std::abs(delta[joint]) < kNoDisplacement) continue;
+      const double least_ramp = ramp > 0.0 ? ramp : kShortestRamp * shortest.duration();
+      limits = narrowed(limits, limitsOf(context, joint, least_ramp), delta[joint]);
+    }
+    shortest = shortestDoubleS(limits);
+  }
+  return scaleBetweenEnds(context, timeLawOf(shortest));
 }
 
 }  // namespace screwline
