@@ -16,23 +16,6 @@ bool inside(const Range& positions, const Range& bound) {
   return positions.lower >= bound.lower - kSlack && positions.upper <= bound.upper + kSlack;
 }
 
-/// Appends the fastest change of a state to rest at a velocity (not at a position).
-void appendChange(const EndState& state, double velocity, const AxisLimits& limits, JerkPhases& phases) {
-  const double a = state.acceleration;
-  const double back = a > 0.0 ? -limits.jerk.lower : limits.jerk.upper;
-  const bool up = velocity >= state.velocity + 0.5 * a * std::abs(a) / back;
-  const double sign = up ? 1.0 : -1.0;
-  const double rise = up ? limits.jerk.upper : -limits.jerk.lower;
-  const double fall = up ? -limits.jerk.lower : limits.jerk.upper;
-  const double most = up ? limits.acceleration.upper : -limits.acceleration.lower;
-  const double m = 1.0 / rise + 1.0 / fall;
-  const double squared = std::max(0.0, (2.0 * sign * (velocity - state.velocity) + a * a / rise) / m);
-  const double peak = std::min(most, std::sqrt(squared));
-  phases.append((peak - sign * a) / rise, sign * rise);
-  if (squared > most * most) phases.append(0.5 * (squared - most * most) * m / most, 0.0);
-  phases.append(peak / fall, -sign * fall);
-}
-
 /// The motion in T by way of a constant velocity, entered and left as fast as can be; nothing where T is too short.
 bool appendByCruise(const EndState& first, const EndState& last, const AxisLimits& limits, double velocity, double T,
                     JerkPhases& phases) {

@@ -141,5 +141,76 @@ TEST(TimeOptimalPlan, AStartThatPushesThroughALimitIsRefused) {
       << messageOf(r);
 }
 
+TEST(TimeOptimalBraking, AStartOutsideTheLimitsComesBackAtFullJerkAndStaysInside) {
+  trajectory_test::Questions random(91);
+  const auto question = std::make_unique<StateToState>();
+  const auto motion = std::make_unique<StateToStateMotion>();
+  for (int trial = 0; trial < 3000; ++trial) {
+    random.fill(*question, 1);
+    const AxisLimits& limits = question->limits[0];
+    question->from[0].velocity = 3.0 * random.uniform(limits.velocity.lower, limits.velocity.upper);
+    question->from[0].acceleration = 2.0 * random.uniform(limits.acceleration.lower, limits.acceleration.upper);
+    moveStateToState(*question, *motion);
+    ASSERT_EQ(motion->status, MotionStatus::kFound) << "seed 91, trial " << trial;
+    JerkPhases rest = motion->phases[0];
+    const EndState end = rest.end();
+    EXPECT_NEAR(end.position, question->to[0].position, 1e-8 * (1.0 + rest.extent().position.peak()));
+    const std::size_t braking = motion->braking_phases[0];
+    JerkPhases brake = rest;
+    brake.count = braking;
+    const EndState back = brake.end();
+    AxisLimits wider = limits;  // By rounding.
+    for (Range* range : {&wider.velocity, &wider.acceleration})
+      *range = {range->lower * 1.00000001, range->upper * 1.00000001};
+    EXPECT_EQ(checkState(back, wider, true).fault, StateFault::kNone) << "seed 91, trial " << trial;
+    rest.start = back;
+    for (std::size_t k = braking; k < rest.count; ++k) rest.phases[k - braking] = rest.phases[k];
+    rest.count -= braking;
+    const AxisLimits extent = rest.extent();
+    EXPECT_LE(extent.velocity.upper, limits.velocity.upper * (1.0 + 1e-9)) << "seed 91, trial " << trial;
+    EXPECT_GE(extent.velocity.lower, limits.velocity.lower * (1.0 + 1e-9)) << "seed 91, trial " << trial;
+    EXPECT_LE(extent.acceleration.upper, limits.acceleration.upper * (1.0 + 1e-9)) << "seed 91, trial " << trial;
+    EXPECT_GE(extent.acceleration.lower, limits.acceleration.lower * (1.0 + 1e-9)) << "seed 91, trial " << trial;
+  }
+}
+
+TEST(TimeOptimalBridge, IsNeverLongerThanTheQuintic) {
+  trajectory_test::Questions random(92);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Limits limits = limitsOf(1, random.uniform(0.5, 3.0), random.uniform(1.0, 9.0), random.uniform(10.0, 90.0));
+    const AxisLimits axis = axisLimits(limits, 0);
+    const EndState a = random.state(axis, true);
+    const EndState b = random.state(axis, false);
+    const MotionState from{vector({a.position}), vector({a.velocity}), vector({a.acceleration})};
+    const MotionState to{vector({b.position}), vector({b.velocity}), vector({b.acceleration})};
+    const double quintic = bridgeTrajectory(from, to, limits).duration();
+    const JointTrajectory best = timeOptimalBridge(from, to, limits);
+    EXPECT_LE(best.duration(), quintic * (1.0 + 1e-6)) << "seed 92, trial " << trial;
+    EXPECT_LE(tightestUse(best, limits).stretch, 1.0 + 1e-8) << "seed 92, trial " << trial;
+  }
+}
+
+TEST(TimeOptimalRefusals, NameTheJointTheValueAndTheFeasibleRange) {
+  const auto question = std::make_unique<StateToState>();
+  const auto motion = std::make_unique<StateToStateMotion>();
+  const auto refusal = [&] {
+    moveStateToState(*question, *motion);
+    return describe(*motion);
+  };
+  EXPECT_EQ(refusal(), "the number of joints is 0, feasible is 1 to 64");
+  question->joints = 2;
+  question->limits[0] = question->limits[1] = AxisLimits::symmetric(1.0, 2.0, 10.0);
+  question->to[1] = {1.0, 1.2, 0.0};
+  EXPECT_EQ(refusal(), "joint 1: goal velocity is 1.2, feasible is -1 to 1");
+  question->to[1] = {1.0, -0.9, 2.0};
+  EXPECT_EQ(refusal(), "joint 1: goal velocity is -0.9, feasible is -0.8 to 1");
+  question->to[1] = {1.0, 0.0, 0.0};
+  question->from[0] = {0.0, 1.0, 0.0};
+  question->limits[0].position = {-1.0, 0.1};
+  EXPECT_EQ(refusal().rfind("joint 0: on the way position is 0.3466666667, feasible is -1 to 0.1", 0), 0u) << refusal();
+  question->from[0] = {std::nan(""), 0.0, 0.0};
+  EXPECT_NE(refusal().find("joint 0: start value is nan"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace screwline

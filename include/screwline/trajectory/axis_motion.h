@@ -31,6 +31,9 @@ StateCheck checkState(const EndState& state, const AxisLimits& limits, bool star
 /// reached. A state from which the limits can be kept is returned as it is.
 EndState brakePhases(const EndState& state, const AxisLimits& limits, JerkPhases& phases);
 
+/// Appends the fastest change of a state to a constant velocity, wherever that leads. @pre acceleration within limits.
+void appendChange(const EndState& state, double velocity, const AxisLimits& limits, JerkPhases& phases);
+
 /// Jerk-limited motions of one joint between two states. Which durations it can have: all from its least one on, but
 /// for at most two blocked intervals (a joint that moves can not wait without coming back). A motion in T is a convex
 /// combination of the two extreme ones in T, so it keeps every limit that they keep and meets both ends.
