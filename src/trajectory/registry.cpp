@@ -4,6 +4,7 @@
 namespace screwline {
 namespace {
 
+constexpr std::size_t kMostTimeOptimal = 1000;  ///< Waypoints: each takes its share of the search.
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 
 std::vector<Profile> singleMoves() {
@@ -70,10 +71,12 @@ std::vector<Profile> jerkLimitedMoves() {
        buildDoubleS},
       {{"time_optimal",
         "the shortest jerk-limited motion of each joint, all of the duration of the slowest; velocities and "
-        "accelerations at both ends from the waypoints, else zero",
+        "accelerations from the waypoints, at the ends else zero, at intermediate waypoints else chosen by a search: "
+        "never "
+        "longer than with a stop at each",
         {}},
        2,
-       2,
+       kMostTimeOptimal,
        false,
        WaypointDerivatives::kAll,
        buildTimeOptimal},

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "screwline/exception.h"
@@ -9,27 +10,26 @@
 namespace screwline {
 namespace {
 
-/// Instants at which any joint changes its jerk, ascending from 0 to the duration.
-std::vector<double> commonBreaks(const StateToStateMotion& motion) {
+/// Appends the instants at which any joint changes its jerk, from `offset` to `offset` + the duration.
+void appendBreaks(const StateToStateMotion& motion, double offset, std::vector<double>& breaks) {
   std::vector<double> instants;
   for (std::size_t j = 0; j < static_cast<std::size_t>(motion.joints); ++j) {
     double t = 0.0;
     for (std::size_t k = 0; k < motion.phases[j].count; ++k) instants.push_back(t += motion.phases[j].phases[k].length);
   }
   std::sort(instants.begin(), instants.end());
-  std::vector<double> breaks{0.0};
+  const double end = offset + motion.duration;
   for (double t : instants) {
-    if (t > breaks.back() && t < motion.duration) breaks.push_back(t);
+    if (offset + t > breaks.back() && offset + t < end) breaks.push_back(offset + t);
   }
-  breaks.push_back(motion.duration);
-  return breaks;
+  if (end > breaks.back() || breaks.size() == 1) breaks.push_back(end);
 }
 
-void layJoint(PiecewisePolynomial& pieces, int joint, const JerkPhases& phases) {
+void layJoint(PiecewisePolynomial& pieces, std::size_t first, double offset, int joint, const JerkPhases& phases) {
   EndState state = phases.start;
   std::size_t phase = 0;
-  double begin = 0.0;
-  for (std::size_t k = 0; k < pieces.segments(); ++k) {
+  double begin = offset;
+  for (std::size_t k = first; k < pieces.segments(); ++k) {
     const double h = pieces.length(k);
     const double middle = pieces.breaks[k] + 0.5 * h;
     while (phase < phases.count && begin + phases.phases[phase].length < middle) {
@@ -38,10 +38,9 @@ void layJoint(PiecewisePolynomial& pieces, int joint, const JerkPhases& phases) 
     }
     const JerkPhase rest;
     const JerkPhase& current = phase < phases.count ? phases.phases[phase] : rest;
-    const double jerk = current.jerk;
     const EndState now = advanced(state, current, pieces.breaks[k] - begin);
     pieces.setPiece(k, joint,
-                    {{now.position, now.velocity * h, 0.5 * now.acceleration * h * h, jerk * h * h * h / 6.0}});
+                    {{now.position, now.velocity * h, 0.5 * now.acceleration * h * h, current.jerk * h * h * h / 6.0}});
   }
 }
 
@@ -94,14 +93,25 @@ std::string describe(const StateToStateMotion& motion) {
   return text + ", feasible is " + number(motion.check.feasible.lower) + " to " + number(motion.check.feasible.upper);
 }
 
-JointTrajectory trajectoryOf(const StateToStateMotion& motion) {
-  PiecewisePolynomial pieces(motion.joints, 3, commonBreaks(motion), 2);
+void appendPieces(const StateToStateMotion& motion, PiecewisePolynomial& pieces) {
+  if (pieces.breaks.empty()) pieces = PiecewisePolynomial(motion.joints, 3, {0.0}, 2);
+  const bool begins = pieces.segments() == 0;
+  const std::size_t first = pieces.segments();
+  const double offset = pieces.duration();
+  appendBreaks(motion, offset, pieces.breaks);
+  pieces.coefficients.resize(pieces.segments() * 4 * static_cast<std::size_t>(motion.joints));
+  pieces.ends_at_rest = true;
   for (int j = 0; j < motion.joints; ++j) {
     const JerkPhases& phases = motion.phases[static_cast<std::size_t>(j)];
-    layJoint(pieces, j, phases);
-    pieces.starts_at_rest = pieces.starts_at_rest && rests(phases.start);
+    layJoint(pieces, first, offset, j, phases);
+    if (begins) pieces.starts_at_rest = pieces.starts_at_rest && rests(phases.start);
     pieces.ends_at_rest = pieces.ends_at_rest && motion.goal_rests[static_cast<std::size_t>(j)];
   }
+}
+
+JointTrajectory trajectoryOf(const StateToStateMotion& motion) {
+  PiecewisePolynomial pieces;
+  appendPieces(motion, pieces);
   return JointTrajectory::piecewise(std::move(pieces));
 }
 

@@ -8,6 +8,7 @@
 #include "screwline/trajectory/profile.h"
 #include "screwline/trajectory/segment_times.h"
 #include "screwline/trajectory/state_to_state.h"
+#include "screwline/trajectory/waypoint_search.h"
 
 namespace screwline {
 namespace {
@@ -45,12 +46,15 @@ void requireWayOut(const EndState& state, const AxisLimits& limits, int joint) {
                        number(check.feasible.lower) + " to " + number(check.feasible.upper));
 }
 
-void ask(const ProfileContext& context, double ramp, StateToState& question) {
+void requireJoints(const ProfileContext& context) {
   if (context.joints() > kMaxJoints) {
     throw InputError(AnswerCode::kTooLarge, "the robot has " + std::to_string(context.joints()) +
                                                 " joints, profile 'time_optimal' plans at most " +
                                                 std::to_string(kMaxJoints));
   }
+}
+
+void ask(const ProfileContext& context, double ramp, StateToState& question) {
   question.joints = context.joints();
   for (int joint = 0; joint < question.joints; ++joint) {
     const std::size_t j = static_cast<std::size_t>(joint);
@@ -69,10 +73,88 @@ void answer(const StateToState& question, StateToStateMotion& motion) {
                    "profile 'time_optimal': " + describe(motion));
 }
 
+std::vector<ViaState> viaStates(const ProfileContext& context) {
+  std::vector<ViaState> vias;
+  const auto& waypoints = context.waypoints();
+  for (std::size_t k = 0; k < waypoints.size(); ++k) {
+    const bool end = k == 0 || k + 1 == waypoints.size();
+    const bool given = waypoints[k].velocity.size() > 0 || waypoints[k].acceleration.size() > 0;
+    ViaState via;
+    via.free = !end && !given;
+    for (int joint = 0; joint < context.joints(); ++joint) {
+      via.joints[static_cast<std::size_t>(joint)] = stateOf(waypoints[k], joint);
+    }
+    // A stop is no less where it is asked for twice.
+    if (k > 0 && waypoints[k].position == waypoints[k - 1].position) via.free = vias.back().free = false;
+    vias.push_back(via);
+  }
+  return vias;
+}
+
+[[noreturn]] void refuseSegment(const StateToStateMotion& motion, std::size_t k) {
+  throw InputError(
+      AnswerCode::kLimitsInfeasible,
+      "profile 'time_optimal', from " + indexed("waypoints", k) + " to the next: " +
+          (motion.status == MotionStatus::kFound ? "its state is bound to leave the limits" : describe(motion)));
+}
+
+/// In the given duration: all of it slower, where the ends and the given states allow that.
+void stretchTo(const ProfileContext& context, double shortest, PiecewisePolynomial& pieces) {
+  const double wanted = context.duration;
+  const bool at_rest = std::all_of(context.waypoints().begin(), context.waypoints().end(), [](const PathPoint& w) {
+    return w.velocity.isZero(0.0) && w.acceleration.isZero(0.0);
+  });
+  if (wanted < shortest * (1.0 - kLimitTolerance) || (!at_rest && wanted > shortest * (1.0 + kLimitTolerance))) {
+    throw InputError(AnswerCode::kLimitsInfeasible,
+                     "profile 'time_optimal' in " + number(wanted) + " s: the shortest motion found takes " +
+                         number(shortest) + " s" +
+                         (at_rest ? "" : ", and moving waypoints do not let it be stretched"));
+  }
+  for (double& t : pieces.breaks) t *= wanted / shortest;
+  pieces.breaks.back() = wanted;
+}
+
+ProfileDraft throughWaypoints(const ProfileContext& context) {
+  std::array<AxisLimits, kMaxJoints> limits;
+  for (int joint = 0; joint < context.joints(); ++joint) {
+    const std::size_t j = static_cast<std::size_t>(joint);
+    limits[j] = limitsOf(context, joint, kShortestTime);
+    requireWayOut(stateOf(context.waypoints().front(), joint), limits[j], joint);
+  }
+  WaypointSearch search(context.joints(), limits, viaStates(context));
+  const bool found = search.run();
+  ProfileDraft draft;
+  draft.waypoint_times = {0.0};
+  PiecewisePolynomial pieces;
+  for (std::size_t k = 0; k + 1 < context.waypoints().size(); ++k) {
+    const StateToStateMotion& motion = search.motion(k);
+    if (motion.status != MotionStatus::kFound || !found) {
+      if (motion.status == MotionStatus::kFound && motion.braking_phases[0] == 0 &&
+          k + 2 < context.waypoints().size()) {
+        continue;  // The segment that fails is a later one.
+      }
+      refuseSegment(motion, k);
+    }
+    appendPieces(motion, pieces);
+    draft.waypoint_times.push_back(pieces.duration());
+  }
+  const double shortest = pieces.duration();
+  if (context.duration > 0.0) {
+    stretchTo(context, shortest, pieces);
+    for (double& t : draft.waypoint_times) t *= pieces.duration() / shortest;
+  }
+  draft.notes.push_back("through the intermediate waypoints without a stop; with a stop at each it would take " +
+                        number(search.stopDuration()) + " s");
+  draft.trajectory = JointTrajectory::piecewise(std::move(pieces));
+  return draft;
+}
+
 }  // namespace
 
 ProfileDraft buildTimeOptimal(const ProfileContext& context) {
   if (nothingMoves(context.waypoints())) return holdStill(context);
+  requireJoints(context);
+  if (context.waypoints().size() > 2) return throughWaypoints(context);
   const auto question = std::make_unique<StateToState>();
   const auto motion = std::make_unique<StateToStateMotion>();
   ask(context, 1e-3 * kShortestTime, *question);

@@ -141,6 +141,41 @@ TEST(TimeOptimalPlan, AStartThatPushesThroughALimitIsRefused) {
       << messageOf(r);
 }
 
+TEST(TimeOptimalWaypoints, AreMetWithinLimitsAndNeverSlowerThanWithStops) {
+  trajectory_test::Questions random(93);
+  double ratio = 0.0;
+  constexpr int kTrials = 30;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const int n = random.integer(1, 6);
+    const Limits limits = limitsOf(n, random.uniform(0.5, 3.0), random.uniform(1.0, 9.0), random.uniform(10.0, 90.0));
+    std::vector<VectorX> way;
+    for (int k = random.integer(3, 8); k > 0; --k) {
+      way.push_back(VectorX::NullaryExpr(n, [&](Eigen::Index) { return random.uniform(-2.0, 2.0); }));
+    }
+    double stops = 0.0;
+    for (std::size_t k = 1; k < way.size(); ++k) {
+      stops += plan(request("time_optimal", {way[k - 1], way[k]}, limits)).trajectory.duration();
+    }
+    PlanRequest r = request("time_optimal", way, limits);
+    const PlanResult through = plan(r);
+    EXPECT_LE(through.trajectory.duration(), stops * (1.0 + 1e-9)) << "seed 93, trial " << trial;
+    EXPECT_LT(through.via_joint_errors.cwiseAbs().maxCoeff(), 1e-9) << "seed 93, trial " << trial;
+    EXPECT_EQ(through.trajectory.continuity(), 2);
+    r.duration = 2.0 * through.trajectory.duration();
+    EXPECT_EQ(plan(r).trajectory.duration(), r.duration);
+    ratio += through.trajectory.duration() / stops / kTrials;
+  }
+  EXPECT_LT(ratio, 0.95);
+  RecordProperty("ratio_to_stops", std::to_string(ratio));
+}
+
+TEST(TimeOptimalWaypoints, ARepeatedOneIsAStop) {
+  PlanRequest r = request("time_optimal", {vector({0.0}), vector({1.0}), vector({1.0}), vector({2.0})},
+                          limitsOf(1, 1.0, 4.0, 40.0));
+  const double one = plan(request("time_optimal", {vector({0.0}), vector({1.0})}, r.limits)).trajectory.duration();
+  EXPECT_NEAR(plan(r).trajectory.duration(), 2.0 * one, 1e-9);
+}
+
 TEST(TimeOptimalBraking, AStartOutsideTheLimitsComesBackAtFullJerkAndStaysInside) {
   trajectory_test::Questions random(91);
   const auto question = std::make_unique<StateToState>();

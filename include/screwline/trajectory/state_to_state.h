@@ -64,6 +64,7 @@ AxisLimits axisLimits(const Limits& limits, int joint);
 std::string describe(const StateToStateMotion& motion);
 
 /// The motion as polynomial pieces of degree 3 over the breakpoints of all joints. Allocates. @pre kFound.
+void appendPieces(const StateToStateMotion& motion, PiecewisePolynomial& pieces);  ///< After those there are, if any.
 JointTrajectory trajectoryOf(const StateToStateMotion& motion);
 
 /// The time-optimal C2 motion from a moving state to another (or to rest), as bridgeTrajectory() but the shortest there
