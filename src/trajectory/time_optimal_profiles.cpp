@@ -122,19 +122,14 @@ ProfileDraft throughWaypoints(const ProfileContext& context) {
     requireWayOut(stateOf(context.waypoints().front(), joint), limits[j], joint);
   }
   WaypointSearch search(context.joints(), limits, viaStates(context));
-  const bool found = search.run();
+  search.run();
   ProfileDraft draft;
   draft.waypoint_times = {0.0};
   PiecewisePolynomial pieces;
   for (std::size_t k = 0; k + 1 < context.waypoints().size(); ++k) {
-    const StateToStateMotion& motion = search.motion(k);
-    if (motion.status != MotionStatus::kFound || !found) {
-      if (motion.status == MotionStatus::kFound && motion.braking_phases[0] == 0 &&
-          k + 2 < context.waypoints().size()) {
-        continue;  // The segment that fails is a later one.
-      }
-      refuseSegment(motion, k);
-    }
+    const bool feasible = search.feasible(k);
+    const StateToStateMotion& motion = search.motion();
+    if (!feasible) refuseSegment(motion, k);
     appendPieces(motion, pieces);
     draft.waypoint_times.push_back(pieces.duration());
   }

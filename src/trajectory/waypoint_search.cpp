@@ -28,9 +28,8 @@ double WaypointSearch::duration() const {
   return std::accumulate(durations_.begin(), durations_.end(), 0.0);
 }
 
-const StateToStateMotion& WaypointSearch::motion(std::size_t k) {
-  plan(k);
-  return *motion_;
+bool WaypointSearch::feasible(std::size_t k) {
+  return std::isfinite(plan(k));
 }
 
 /// The duration, and a little of the other joints' own shortest ones: what only they gain makes room for later steps. A

@@ -24,12 +24,14 @@ class WaypointSearch {
   /// @pre at least two waypoints; the first and the last are not free. `limits` as in StateToState.
   WaypointSearch(int joints, const std::array<AxisLimits, kMaxJoints>& limits, std::vector<ViaState> waypoints);
 
-  /// Chooses the free states. @return false where a segment has no motion even so: see motion().
+  /// Chooses the free states. @return false where a segment has no motion even with a stop at each of them.
   bool run();
 
   const std::vector<ViaState>& waypoints() const { return waypoints_; }
-  /// Plans segment k (from waypoint k) with the present states.
-  const StateToStateMotion& motion(std::size_t k);
+  /// Plans segment k (from waypoint k) with the present states: whether it can be driven; motion() says how, or why
+  /// not.
+  bool feasible(std::size_t k);
+  const StateToStateMotion& motion() const { return *motion_; }
   double duration() const;
   double stopDuration() const { return stop_duration_; }  ///< With a stop at each free waypoint.
 
