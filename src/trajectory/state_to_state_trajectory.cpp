@@ -93,6 +93,19 @@ std::string describe(const StateToStateMotion& motion) {
   return text + ", feasible is " + number(motion.check.feasible.lower) + " to " + number(motion.check.feasible.upper);
 }
 
+void slowDown(StateToStateMotion& motion, double factor) {
+  motion.duration *= factor;
+  for (std::size_t j = 0; j < static_cast<std::size_t>(motion.joints); ++j) {
+    JerkPhases& phases = motion.phases[j];
+    phases.start.velocity /= factor;
+    phases.start.acceleration /= factor * factor;
+    for (std::size_t k = 0; k < phases.count; ++k) {
+      phases.phases[k].length *= factor;
+      phases.phases[k].jerk /= factor * factor * factor;
+    }
+  }
+}
+
 void appendPieces(const StateToStateMotion& motion, PiecewisePolynomial& pieces) {
   if (pieces.breaks.empty()) pieces = PiecewisePolynomial(motion.joints, 3, {0.0}, 2);
   const bool begins = pieces.segments() == 0;

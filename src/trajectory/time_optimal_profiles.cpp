@@ -98,9 +98,10 @@ std::vector<ViaState> viaStates(const ProfileContext& context) {
           (motion.status == MotionStatus::kFound ? "its state is bound to leave the limits" : describe(motion)));
 }
 
-/// In the given duration: all of it slower, where the ends and the given states allow that.
-void stretchTo(const ProfileContext& context, double shortest, PiecewisePolynomial& pieces) {
+/// The factor to the given duration: all of the motion slower, where the ends and the given states allow that.
+double stretchOf(const ProfileContext& context, double shortest) {
   const double wanted = context.duration;
+  if (wanted == 0.0) return 1.0;
   const bool at_rest = std::all_of(context.waypoints().begin(), context.waypoints().end(), [](const PathPoint& w) {
     return w.velocity.isZero(0.0) && w.acceleration.isZero(0.0);
   });
@@ -110,8 +111,7 @@ void stretchTo(const ProfileContext& context, double shortest, PiecewisePolynomi
                          number(shortest) + " s" +
                          (at_rest ? "" : ", and moving waypoints do not let it be stretched"));
   }
-  for (double& t : pieces.breaks) t *= wanted / shortest;
-  pieces.breaks.back() = wanted;
+  return std::max(1.0, wanted / shortest);
 }
 
 ProfileDraft throughWaypoints(const ProfileContext& context) {
@@ -122,22 +122,19 @@ ProfileDraft throughWaypoints(const ProfileContext& context) {
     requireWayOut(stateOf(context.waypoints().front(), joint), limits[j], joint);
   }
   WaypointSearch search(context.joints(), limits, viaStates(context));
-  search.run();
+  const double stretch = search.run() ? stretchOf(context, search.duration()) : 1.0;
   ProfileDraft draft;
   draft.waypoint_times = {0.0};
   PiecewisePolynomial pieces;
   for (std::size_t k = 0; k + 1 < context.waypoints().size(); ++k) {
     const bool feasible = search.feasible(k);
-    const StateToStateMotion& motion = search.motion();
+    StateToStateMotion& motion = search.motion();
     if (!feasible) refuseSegment(motion, k);
+    if (stretch > 1.0) slowDown(motion, stretch);
     appendPieces(motion, pieces);
     draft.waypoint_times.push_back(pieces.duration());
   }
-  const double shortest = pieces.duration();
-  if (context.duration > 0.0) {
-    stretchTo(context, shortest, pieces);
-    for (double& t : draft.waypoint_times) t *= pieces.duration() / shortest;
-  }
+  if (context.duration > 0.0) pieces.breaks.back() = draft.waypoint_times.back() = context.duration;
   draft.notes.push_back("through the intermediate waypoints without a stop; with a stop at each it would take " +
                         number(search.stopDuration()) + " s");
   draft.trajectory = JointTrajectory::piecewise(std::move(pieces));

@@ -63,6 +63,9 @@ AxisLimits axisLimits(const Limits& limits, int joint);
 /// What stands against the motion, "joint 2: goal velocity is 1.2, feasible is -1 to 1".
 std::string describe(const StateToStateMotion& motion);
 
+/// The same path `factor` times as slow. @pre factor >= 1: limits that are kept stay kept.
+void slowDown(StateToStateMotion& motion, double factor);
+
 /// The motion as polynomial pieces of degree 3 over the breakpoints of all joints. Allocates. @pre kFound.
 void appendPieces(const StateToStateMotion& motion, PiecewisePolynomial& pieces);  ///< After those there are, if any.
 JointTrajectory trajectoryOf(const StateToStateMotion& motion);

@@ -31,7 +31,7 @@ class WaypointSearch {
   /// Plans segment k (from waypoint k) with the present states: whether it can be driven; motion() says how, or why
   /// not.
   bool feasible(std::size_t k);
-  const StateToStateMotion& motion() const { return *motion_; }
+  StateToStateMotion& motion() { return *motion_; }
   double duration() const;
   double stopDuration() const { return stop_duration_; }  ///< With a stop at each free waypoint.
 
