@@ -1,11 +1,16 @@
 // Sampling and planning of six joints; KDL's forward kinematics of six joints is the yardstick in the same run.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
 #include <kdl/chainfksolverpos_recursive.hpp>
+#include <memory>
 #include <random>
+#include <vector>
 
 #include "robots.h"
 #include "screwline/trajectory/plan.h"
+#include "screwline/trajectory/state_to_state.h"
 
 namespace screwline {
 namespace benchmark_support {
@@ -47,6 +52,44 @@ void planMotion(benchmark::State& state, const std::string& profile, int waypoin
   for (auto _ : state) benchmark::DoNotOptimize(plan(request));
 }
 
+/// 1,000 questions of seven joints, both ends moving: state to state, with a percentile over the questions.
+void stateToState(benchmark::State& state) {
+  constexpr std::size_t kCount = 1000;
+  std::mt19937 random(kSeed);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  std::vector<StateToState> questions(kCount);
+  for (auto& question : questions) {
+    question.joints = 7;
+    for (std::size_t j = 0; j < 7; ++j) {
+      const double v = between(0.5, 3.0), a = between(1.0, 15.0), jerk = between(20.0, 300.0);
+      AxisLimits& limits = question.limits[j] = AxisLimits::symmetric(v, a, jerk);
+      const auto draw = [&](EndState& end, bool starting) {
+        do {
+          end = {between(-3.0, 3.0), between(-v, v), between(-a, a)};
+        } while (checkState(end, limits, starting).fault != StateFault::kNone);
+      };
+      draw(question.from[j], true);
+      draw(question.to[j], false);
+    }
+  }
+  const auto motion = std::make_unique<StateToStateMotion>();
+  std::vector<double> least(kCount, 1e9);
+  std::size_t k = 0;
+  for (auto _ : state) {
+    const auto begin = std::chrono::steady_clock::now();
+    moveStateToState(questions[k], *motion);
+    const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - begin;
+    benchmark::DoNotOptimize(motion->duration);
+    least[k] = std::min(least[k], passed.count());
+    k = (k + 1) % kCount;
+  }
+  std::sort(least.begin(), least.end());
+  state.counters["p50_ns"] = least[kCount / 2];
+  state.counters["p99_ns"] = least[kCount * 99 / 100];
+}
+
 void forwardKdl(benchmark::State& state) {
   Robot robot("rrprrr");
   KDL::ChainFkSolverPos_recursive solver(robot.kdl);
@@ -61,7 +104,8 @@ void forwardKdl(benchmark::State& state) {
 
 void registerAll() {
   benchmark::RegisterBenchmark("forward_kdl/rrprrr", forwardKdl);
-  for (const char* profile : {"polynomial_345", "cycloidal"}) {
+  benchmark::RegisterBenchmark("state_to_state/7_joints", stateToState);
+  for (const char* profile : {"polynomial_345", "cycloidal", "double_s", "time_optimal"}) {
     benchmark::RegisterBenchmark((std::string("sample/") + profile).c_str(), sample, std::string(profile), 2);
     benchmark::RegisterBenchmark((std::string("plan/") + profile).c_str(), planMotion, std::string(profile), 2);
   }

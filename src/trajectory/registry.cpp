@@ -4,6 +4,7 @@
 namespace screwline {
 namespace {
 
+constexpr std::size_t kMostTimeOptimal = 1000;  ///< Waypoints: each takes its share of the search.
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 
 std::vector<Profile> singleMoves() {
@@ -57,6 +58,28 @@ std::vector<Profile> singleMoves() {
        false,
        WaypointDerivatives::kNone,
        buildPolynomial345},
+  };
+}
+
+std::vector<Profile> jerkLimitedMoves() {
+  return {
+      {{"double_s", "one s(tau) of seven phases of constant jerk for all joints: the shortest within the limits", {}},
+       2,
+       2,
+       false,
+       WaypointDerivatives::kNone,
+       buildDoubleS},
+      {{"time_optimal",
+        "the shortest jerk-limited motion of each joint, all of the duration of the slowest; velocities and "
+        "accelerations from the waypoints, at the ends else zero, at intermediate waypoints else chosen by a search: "
+        "never "
+        "longer than with a stop at each",
+        {}},
+       2,
+       kMostTimeOptimal,
+       false,
+       WaypointDerivatives::kAll,
+       buildTimeOptimal},
   };
 }
 
@@ -157,7 +180,7 @@ std::vector<Profile> freeMotions() {
 const std::vector<Profile>& registry() {
   static const std::vector<Profile> profiles = [] {
     std::vector<Profile> all = singleMoves();
-    for (const auto& group : {viaMoves(), multipointMoves(), freeMotions()})
+    for (const auto& group : {jerkLimitedMoves(), viaMoves(), multipointMoves(), freeMotions()})
       all.insert(all.end(), group.begin(), group.end());
     return all;
   }();

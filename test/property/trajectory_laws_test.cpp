@@ -95,6 +95,7 @@ TEST(TrajectoryLaws, DerivativesEqualFiniteDifferences) {
 TEST(TrajectoryLaws, TwiceTheDurationHalvesQuartersAndEighthsTheDerivatives) {
   for (const auto& info : listProfiles()) {
     if (info.name == "sinusoidal" || info.name.find("trapezoidal") != std::string::npos) continue;
+    if (info.name == "time_optimal") continue;  // Its joints have their own shape in each duration.
     Random random(53);
     PlanRequest r = randomRequest(random, info.name);
     const JointTrajectory once = plan(r).trajectory;

@@ -4,10 +4,12 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <memory>
 
 #include "ik_arms.h"
 #include "screwline/ik/closed_form/plan.h"
 #include "screwline/kinematics/jacobian.h"
+#include "screwline/trajectory/state_to_state.h"
 
 extern "C" void* __libc_malloc(std::size_t size);
 
@@ -57,6 +59,20 @@ TEST_P(Allocation, ClosedFormAllocatesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Structures, Allocation, testing::Range(0, test::ArmMaker::kStructures));
+
+TEST(TimeOptimalAllocation, StateToStateAllocatesNothing) {
+  const auto question = std::make_unique<StateToState>();
+  const auto motion = std::make_unique<StateToStateMotion>();
+  question->joints = 7;
+  for (std::size_t j = 0; j < 7; ++j) {
+    question->from[j] = {0.1 * static_cast<double>(j), 0.3, -0.2};
+    question->to[j] = {1.0 - 0.3 * static_cast<double>(j), -0.1, 0.4};
+    question->limits[j] = AxisLimits::symmetric(1.0, 3.0, 30.0);
+    question->limits[j].position = {-4.0, 4.0};
+  }
+  EXPECT_EQ(allocationsOf([&] { moveStateToState(*question, *motion); }), 0);
+  EXPECT_EQ(motion->status, MotionStatus::kFound);
+}
 
 TEST(AllocationChecker, SeesAnAllocation) {
   EXPECT_GT(allocationsOf([] {

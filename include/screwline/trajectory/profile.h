@@ -92,6 +92,8 @@ ProfileDraft buildMultipointCubic(const ProfileContext& context);
 ProfileDraft buildMultipointQuintic(const ProfileContext& context);
 ProfileDraft buildBspline(const ProfileContext& context);  // bspline_profiles.cpp
 ProfileDraft buildBsplineInterpolating(const ProfileContext& context);
+ProfileDraft buildDoubleS(const ProfileContext& context);  // time_optimal_profiles.cpp
+ProfileDraft buildTimeOptimal(const ProfileContext& context);
 
 }  // namespace screwline
 
