@@ -13,22 +13,30 @@
 namespace screwline {
 namespace {
 
-constexpr int kSamples = 100;        ///< Configurations at which the chains are compared.
-constexpr double kStencil = 1.5;     ///< Of the largest difference: how far beside the target to look.
-constexpr double kSamePlace = 0.15;  ///< Scaled; starts closer to one that was followed lead to the same solutions.
-constexpr double kWeight = 0.5;      ///< Of rotation, in units of length, as in search().
-constexpr double kSingular = 2.0;    ///< Singular values below this many square roots of the difference.
-constexpr double kDepth = 40.0;      ///< Differences that solutions are looked for in along a valley.
+constexpr int kSamples = 100;            ///< Configurations at which the chains are compared.
+constexpr double kStencil = 1.5;         ///< Of the largest difference: how far beside the target to look.
+constexpr double kSamePlace = 0.15;      ///< Scaled; starts closer to one that was followed lead to the same solutions.
+constexpr double kWeight = 0.5;          ///< Of rotation, in units of length, as in search().
+constexpr double kSingular = 2.0;        ///< Singular values below this many square roots of the difference.
+constexpr double kAlmostSingular = 0.1;  ///< Of that.
+constexpr double kShortWay = 0.2;
+constexpr double kDepth = 6.0;  ///< Differences that solutions are looked for in along a valley.
 constexpr double kScatter[] = {-1.2, -0.4, -0.12, 0.12, 0.4, 1.2};  ///< Scaled; along directions about to be lost.
 constexpr int kMaxIterations = 60;
+constexpr double kGoodEnough = 1e-13;  ///< [m, rad] errors that Newton steps would not lessen.
+constexpr double kExact = 1e-12;       ///< [m, rad] errors that make a solution however singular it is.
+constexpr double kUncertain = 1e-3;    ///< Scaled; solutions known no better are none.
+constexpr double kNoValue = 1e-8;      ///< Singular values, in units of length, of what may be part of a continuum.
 
 /// Work on one target.
 class Continuation {
  public:
-  Continuation(const SerialChain& chain, const Task& task, const Pose& target, double deviation, const Watch& watch)
+  Continuation(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& preferred,
+               double deviation, const Watch& watch)
       : chain_(chain),
         task_(task),
         target_(target),
+        preferred_(preferred),
         watch_(watch),
         residual_(chain, task, target, kWeight * lengthUnit(chain)),
         descent_(chain, task, target, options(chain), watch_),
@@ -37,6 +45,7 @@ class Continuation {
 
   const JointBox& box() const { return descent_.box(); }
   const std::vector<VectorX>& solutions() const { return solutions_; }
+  int freeJoint(std::size_t solution) const { return free_[solution]; }
   bool complete() const { return complete_; }
   /// Index of the solution that the descent from there ended at, or -1.
   int follow(const VectorX& start);
@@ -54,14 +63,23 @@ class Continuation {
 
   int descend(const VectorX& start);
   int admit(VectorX q);
-  void traceFrom(const VectorX& start);
+  int indexOf(const VectorX& q, const TaskError& error);
+  int traceFrom(const VectorX& start);
   void scatterFrom(const VectorX& start);
   MatrixX weakDirections(const VectorX& q);
   double weakest(const ConstVectorRef& q);
+  bool isPlain(const VectorX& start, const ConstVectorRef& end);
+
+  /// A continuum: its solution, and points along it.
+  struct Ring {
+    int solution;
+    std::vector<JointVector> path;
+  };
 
   const SerialChain& chain_;
   const Task& task_;
   const Pose& target_;
+  const VectorX& preferred_;
   const Watch& watch_;
   TaskResidual residual_;
   Descent descent_;
@@ -69,18 +87,31 @@ class Continuation {
   double singular_;
   TaskPoint point_;
   std::vector<VectorX> solutions_;
+  std::vector<int> free_;  ///< Of each solution; -1: isolated.
+  std::vector<Ring> continua_;
   std::vector<VectorX> followed_;
   bool complete_ = true;
 };
 
+int Continuation::indexOf(const VectorX& q, const TaskError& error) {
+  const int known = indexOfKnown(chain_, task_, box(), solutions_, q, error);
+  if (known >= 0 || continua_.empty() || weakest(q) > kNoValue * lengthUnit(chain_)) return known;
+  for (const Ring& ring : continua_) {
+    if (Valley::isNearAny(box(), ring.path, q)) return ring.solution;
+  }
+  return -1;
+}
+
 int Continuation::admit(VectorX q) {
   TaskError error = errorOf(q);
-  if (error.norm() > 1e-13) error = polish(chain_, task_, target_, q);
-  if (!isAccepted(error)) return -1;
+  if (error.norm() > kGoodEnough) error = polish(chain_, task_, target_, q);
+  // Beside a singular solution much is almost one.
+  if (!isAccepted(error) || (error.norm() > kExact && error.norm() > kUncertain * weakest(q))) return -1;
   box().wrapUnbounded(q);
-  const int known = indexOfKnown(chain_, task_, box(), solutions_, q, error);
+  const int known = indexOf(q, error);
   if (known >= 0) return known;
   solutions_.push_back(q);
+  free_.push_back(-1);
   return static_cast<int>(solutions_.size()) - 1;
 }
 
@@ -119,26 +150,50 @@ void Continuation::scatterFrom(const VectorX& start) {
   }
 }
 
-void Continuation::traceFrom(const VectorX& start) {
-  if (valley_.passes(start)) return;
+/// The solution of a continuum that was found, or -1.
+int Continuation::traceFrom(const VectorX& start) {
+  if (valley_.passes(start)) return -1;
   const std::size_t before = valley_.roots().size();
   const bool whole = valley_.trace(start);
+  if (valley_.isContinuum()) {
+    const int found = admit(valley_.memberNear(preferred_));
+    if (found < 0) return -1;
+    free_[static_cast<std::size_t>(found)] = valley_.freeJoint();
+    continua_.push_back({found, valley_.lastPath()});
+    return found;
+  }
   for (std::size_t i = before; i < valley_.roots().size(); ++i) admit(valley_.roots()[i]);
-  if (whole) return;
-  scatterFrom(start);
-  complete_ = false;
+  if (!whole) {
+    scatterFrom(start);
+    complete_ = false;
+  }
+  return -1;
+}
+
+/// Whether the way to the solution leaves no doubt which one it is (Newton-Kantorovich: the way is short against the
+/// least singular value over the second derivative).
+bool Continuation::isPlain(const VectorX& start, const ConstVectorRef& end) {
+  const double least = std::min(weakest(start), weakest(end));
+  if (least >= singular_) return true;
+  return least > kAlmostSingular * singular_ && box().distance(start, end) < kShortWay * least / lengthUnit(chain_);
 }
 
 int Continuation::follow(const VectorX& start) {
   followed_.push_back(start);
+  const bool square = chain_.size() == task_.size();
+  const bool first_trace = square && weakest(start) < kAlmostSingular * singular_;
+  if (first_trace) {
+    const int continuum = traceFrom(start);
+    if (continuum >= 0) return continuum;
+  }
   const int found = descend(start);
-  const bool singular = weakest(start) < singular_ || (found >= 0 && weakest(descent_.point().q) < singular_);
-  if (found >= 0 && !singular) return found;
-  if (chain_.size() == task_.size()) {
-    traceFrom(start);
-  } else {
+  if (found >= 0 && isPlain(start, descent_.point().q)) return found;
+  if (!square) {
     complete_ = false;
     scatterFrom(start);
+  } else if (!first_trace) {
+    const int continuum = traceFrom(found >= 0 ? VectorX(descent_.point().q) : start);
+    if (found < 0) return continuum;
   }
   return found;
 }
@@ -197,7 +252,7 @@ ContinuedSolutions ContinuedSolver::solve(const Pose& target, const VectorX& pre
   const std::function<bool()> never;
   const Watch watch(timeout, never);
   const double deviation = std::hypot(position_deviation_, kWeight * lengthUnit(chain_) * rotation_deviation_);
-  Continuation continuation(chain_, task_, target, deviation, watch);
+  Continuation continuation(chain_, task_, target, preferred, deviation, watch);
   ContinuedSolutions result;
   std::vector<bool> claimed;
   int unclaimed = 0;
@@ -216,8 +271,11 @@ ContinuedSolutions ContinuedSolver::solve(const Pose& target, const VectorX& pre
       if (!continuation.wasFollowed(ideal.q)) continuation.follow(ideal.q);
     }
   }
-  for (const VectorX& q : continuation.solutions())
-    result.solutions.push_back({q, branchAt(solver_, ideal_, continuation.box(), q), continuation.errorOf(q)});
+  for (std::size_t i = 0; i < continuation.solutions().size(); ++i) {
+    const VectorX& q = continuation.solutions()[i];
+    result.solutions.push_back(
+        {q, branchAt(solver_, ideal_, continuation.box(), q), continuation.freeJoint(i), continuation.errorOf(q)});
+  }
   const auto count = static_cast<int>(result.solutions.size());
   const int others = count - (result.ideal - unclaimed);
   result.vanished = std::max(0, unclaimed - others);

@@ -19,13 +19,19 @@ constexpr double kTurn = 0.8;  ///< Cosine of what the curve and the lost direct
 constexpr double kLongestWay = 25.0;
 constexpr double kBeside = 0.12;  ///< Nearer to a curve: on it.
 constexpr double kBracket = 1e-5;
-constexpr double kTouching = 1e-9;  ///< Depth, in units of the chain's length, that may be zero.
+constexpr double kTouching = 1e-9;   ///< Depth, in units of the chain's length, that may be zero, ...
+constexpr double kRounding = 1e-12;  ///< ... and one that is, where it is nowhere more.
+constexpr double kHigh = 0.3;        ///< Of the bound: what breaks off there may.
 constexpr int kMaxCorrections = 12;
 constexpr int kFewCorrections = 3;
 constexpr int kMaxBisections = 40;
 constexpr int kMaxTouches = 30;
+constexpr int kMaxSlides = 20;
 
 }  // namespace
+
+Valley::Valley(TaskResidual& residual, const JointBox& box, double bound)
+    : residual_(residual), box_(box), bound_(bound), rounding_(kRounding * lengthUnit(residual.chain())) {}
 
 bool Valley::settle(Node& node, const Node* reference) {
   point_.q = node.q;
@@ -141,16 +147,17 @@ bool Valley::follow(const Node& origin, double direction) {
     Node next;
     if (!stepFrom(node, direction * step, next)) {
       step *= 0.5;
-      if (step < kShortestStep) return false;
+      if (step < kShortestStep) return std::abs(node.depth) > kHigh * bound_;
       continue;
     }
     way += step;
     path_.push_back(next.q);
+    deepest_ = std::max(deepest_, std::abs(next.depth));
     const bool crosses = (next.depth > 0.0) != (node.depth > 0.0);
-    if (crosses) bracket(node, next);
+    if (crosses && deepest_ > rounding_) bracket(node, next);
     const bool same_sign = !crosses && (node.depth > 0.0) == (before.depth > 0.0);
     const double least = std::min(std::abs(before.depth), std::abs(next.depth));
-    if (has_before && same_sign && std::abs(node.depth) <= least) touch(before, node, next);
+    if (has_before && same_sign && std::abs(node.depth) <= least && deepest_ > rounding_) touch(before, node, next);
     if (std::abs(next.depth) > bound_) return true;
     if (way > 4.0 * kLongestStep && hasPassed(origin, next, direction)) return true;
     if (next.corrections <= kFewCorrections) step = std::min(kLongestStep, 1.4 * step);
@@ -162,20 +169,47 @@ bool Valley::follow(const Node& origin, double direction) {
 }
 
 bool Valley::trace(const ConstVectorRef& start) {
+  continuum_ = false;
+  last_path_ = path_.size();
   Node origin;
   origin.q = start;
   if (!settle(origin, nullptr)) return false;
+  foot_ = origin.q;
+  origin.tangent.cwiseAbs().maxCoeff(&free_joint_);
+  deepest_ = std::abs(origin.depth);
   path_.push_back(origin.q);
   if (std::abs(origin.depth) > bound_) return true;
+  const std::size_t known = roots_.size();
   // A least depth at the origin itself is seen by neither side: one step back first.
   Node behind;
-  const bool whole = stepFrom(origin, -kShortestStep, behind) && follow(behind, 1.0);
-  return follow(origin, -1.0) && whole;
+  bool whole = stepFrom(origin, -kShortestStep, behind) && follow(behind, 1.0);
+  whole = follow(origin, -1.0) && whole;
+  continuum_ = whole && deepest_ < rounding_;
+  if (continuum_) roots_.resize(known);
+  return whole;
 }
 
-bool Valley::passes(const ConstVectorRef& q) const {
-  return std::any_of(path_.begin(), path_.end(),
-                     [&](const JointVector& point) { return box_.distance(point, q) < kBeside; });
+JointVector Valley::memberNear(const ConstVectorRef& preferred) {
+  JointVector nearest = foot_;
+  for (std::size_t i = last_path_; i < path_.size(); ++i) {
+    if (difference(path_[i], preferred).norm() < difference(nearest, preferred).norm()) nearest = path_[i];
+  }
+  Node node;
+  node.q = nearest;
+  if (!settle(node, nullptr)) return nearest;
+  node.tangent.cwiseAbs().maxCoeff(&free_joint_);
+  for (int k = 0; k < kMaxSlides; ++k) {
+    const double way = difference(preferred, node.q)[free_joint_] / node.tangent[free_joint_];
+    Node next;
+    if (std::abs(way) < kSettled || !stepFrom(node, std::min(std::max(way, -kLongestStep), kLongestStep), next)) break;
+    node = next;
+  }
+  return node.q;
+}
+
+bool Valley::isNearAny(const JointBox& box, const std::vector<JointVector>& path, const ConstVectorRef& q) {
+  return std::any_of(path.begin(), path.end(),
+                     [&](const JointVector& point) { return box.distance(point, q) < kBeside; });
 }
 
 }  // namespace screwline

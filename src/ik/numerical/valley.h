@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_IK_NUMERICAL_VALLEY_H
 #define SCREWLINE_IK_NUMERICAL_VALLEY_H
 
+#include <cstddef>
 #include <vector>
 
 #include "joint_box.h"
@@ -14,7 +15,7 @@ namespace screwline {
 class Valley {
  public:
   /// `bound`: of |g| within which the curve is followed.
-  Valley(TaskResidual& residual, const JointBox& box, double bound) : residual_(residual), box_(box), bound_(bound) {}
+  Valley(TaskResidual& residual, const JointBox& box, double bound);
 
   /// Follows the curve through the point next to `start` to both ends, or round. False where it could not be followed
   /// (two directions are about to be lost at once).
@@ -23,8 +24,21 @@ class Valley {
   /// Next to the zeros found by all traces, and where g touches zero within rounding.
   const std::vector<JointVector>& roots() const { return roots_; }
 
+  /// Whether the last trace met nothing but zeros: the curve is a continuum of solutions. It has no roots then.
+  bool isContinuum() const { return continuum_; }
+  /// Of the last trace, a continuum: its member with the joint that parametrises it at the preferred value.
+  JointVector memberNear(const ConstVectorRef& preferred);
+  /// That joint: the one that moves most there.
+  int freeJoint() const { return free_joint_; }
+
+  /// Points of the last trace.
+  std::vector<JointVector> lastPath() const {
+    return {path_.begin() + static_cast<std::ptrdiff_t>(last_path_), path_.end()};
+  }
+
   /// Whether a curve that was followed passes there.
-  bool passes(const ConstVectorRef& q) const;
+  bool passes(const ConstVectorRef& q) const { return isNearAny(box_, path_, q); }
+  static bool isNearAny(const JointBox& box, const std::vector<JointVector>& path, const ConstVectorRef& q);
 
  private:
   struct Node {
@@ -47,9 +61,15 @@ class Valley {
   TaskResidual& residual_;
   const JointBox& box_;
   double bound_;
+  double rounding_;
+  bool continuum_ = false;
+  JointVector foot_;
+  int free_joint_ = 0;
+  double deepest_ = 0.0;
   TaskPoint point_;
   std::vector<JointVector> roots_;
   std::vector<JointVector> path_;
+  std::size_t last_path_ = 0;
 };
 
 }  // namespace screwline

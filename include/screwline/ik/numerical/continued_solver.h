@@ -24,6 +24,8 @@ using IdealSolver = std::function<std::vector<IdealSolution>(const Pose& target,
 struct ContinuedSolution {
   VectorX q;           ///< Revolute joints in (-pi, pi] where a full turn changes nothing; limits are not looked at.
   std::string branch;  ///< Of the ideal chain's solution next to q, for the pose that the ideal chain has at q.
+  int free = -1;       ///< Joint that parametrises a continuum of the true chain, of which q is the member next to the
+                       ///< ideal one; -1: isolated.
   TaskError error;     ///< Below 1e-9, of the true chain.
 };
 
