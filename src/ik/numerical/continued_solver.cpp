@@ -13,19 +13,21 @@
 namespace screwline {
 namespace {
 
-constexpr int kSamples = 100;            ///< Configurations at which the chains are compared.
-constexpr double kStencil = 1.5;         ///< Of the largest difference: how far beside the target to look.
+constexpr int kSamples = 100;              ///< Configurations at which the chains are compared.
+constexpr double kStencil[] = {3.0, 0.3};  ///< Of the largest difference: how far beside the target to look.
 constexpr double kSamePlace = 0.15;      ///< Scaled; starts closer to one that was followed lead to the same solutions.
 constexpr double kWeight = 0.5;          ///< Of rotation, in units of length, as in search().
 constexpr double kSingular = 2.0;        ///< Singular values below this many square roots of the difference.
 constexpr double kAlmostSingular = 0.1;  ///< Of that.
 constexpr double kShortWay = 0.2;
-constexpr double kDepth = 6.0;  ///< Differences that solutions are looked for in along a valley.
+constexpr double kDepth = 10.0;  ///< Differences that solutions are looked for in along a valley.
 constexpr double kScatter[] = {-1.2, -0.4, -0.12, 0.12, 0.4, 1.2};  ///< Scaled; along directions about to be lost.
+constexpr int kRestarts = 64;  ///< Where solutions are about to meet: for what starts beside the pose miss.
 constexpr int kMaxIterations = 60;
 constexpr double kGoodEnough = 1e-13;  ///< [m, rad] errors that Newton steps would not lessen.
 constexpr double kExact = 1e-12;       ///< [m, rad] errors that make a solution however singular it is.
 constexpr double kUncertain = 1e-3;    ///< Scaled; solutions known no better are none.
+constexpr double kBeside = 1e-5;       ///< [m, rad] errors beside a solution.
 constexpr double kNoValue = 1e-8;      ///< Singular values, in units of length, of what may be part of a continuum.
 
 /// Work on one target.
@@ -50,6 +52,10 @@ class Continuation {
   /// Index of the solution that the descent from there ended at, or -1.
   int follow(const VectorX& start);
   bool wasFollowed(const VectorX& start) const;
+  /// Whether nothing was met but solutions that are clear of each other.
+  bool isPlain() const { return plain_ && !solutions_.empty(); }
+  /// Descents from all over the joint space.
+  void restart(int count);
   TaskError errorOf(const VectorX& q) const { return taskError(task_, target_, forwardKinematics(chain_, q)); }
 
  private:
@@ -91,6 +97,7 @@ class Continuation {
   std::vector<Ring> continua_;
   std::vector<VectorX> followed_;
   bool complete_ = true;
+  bool plain_ = true;
 };
 
 int Continuation::indexOf(const VectorX& q, const TaskError& error) {
@@ -153,6 +160,7 @@ void Continuation::scatterFrom(const VectorX& start) {
 /// The solution of a continuum that was found, or -1.
 int Continuation::traceFrom(const VectorX& start) {
   if (valley_.passes(start)) return -1;
+  plain_ = false;
   const std::size_t before = valley_.roots().size();
   const bool whole = valley_.trace(start);
   if (valley_.isContinuum()) {
@@ -192,10 +200,16 @@ int Continuation::follow(const VectorX& start) {
     complete_ = false;
     scatterFrom(start);
   } else if (!first_trace) {
-    const int continuum = traceFrom(found >= 0 ? VectorX(descent_.point().q) : start);
+    // A descent that ends beside a solution has come to the bottom of its valley.
+    const bool arrived = found >= 0 || descent_.point().error.norm() < kBeside;
+    const int continuum = traceFrom(arrived ? VectorX(descent_.point().q) : start);
     if (found < 0) return continuum;
   }
   return found;
+}
+
+void Continuation::restart(int count) {
+  for (int k = 1; k <= count && !watch_.expired(); ++k) descend(box().restart(k));
 }
 
 bool Continuation::wasFollowed(const VectorX& start) const {
@@ -265,12 +279,15 @@ ContinuedSolutions ContinuedSolver::solve(const Pose& target, const VectorX& pre
     if (is_new) claimed[static_cast<std::size_t>(found)] = true;
     if (!is_new) ++unclaimed;
   }
-  for (const Pose& beside : stencil(task_, target, kStencil * position_deviation_, kStencil * rotation_deviation_)) {
-    if (watch.expired()) break;
-    for (const IdealSolution& ideal : solver_(beside, preferred)) {
-      if (!continuation.wasFollowed(ideal.q)) continuation.follow(ideal.q);
+  for (double share : kStencil) {
+    for (const Pose& beside : stencil(task_, target, share * position_deviation_, share * rotation_deviation_)) {
+      if (watch.expired()) break;
+      for (const IdealSolution& ideal : solver_(beside, preferred)) {
+        if (!continuation.wasFollowed(ideal.q)) continuation.follow(ideal.q);
+      }
     }
   }
+  if (!continuation.isPlain()) continuation.restart(kRestarts);
   for (std::size_t i = 0; i < continuation.solutions().size(); ++i) {
     const VectorX& q = continuation.solutions()[i];
     result.solutions.push_back(
