@@ -68,6 +68,7 @@ class Continuation {
   }
 
   int descend(const VectorX& start);
+  void probe(const VectorX& start);
   int admit(VectorX q);
   int indexOf(const VectorX& q, const TaskError& error);
   int traceFrom(const VectorX& start);
@@ -98,6 +99,7 @@ class Continuation {
   std::vector<VectorX> followed_;
   bool complete_ = true;
   bool plain_ = true;
+  bool probing_ = false;
 };
 
 int Continuation::indexOf(const VectorX& q, const TaskError& error) {
@@ -127,6 +129,20 @@ int Continuation::descend(const VectorX& start) {
   return isAccepted(descent_.point().error) ? admit(descent_.point().q) : -1;
 }
 
+/// A descent that may end anywhere on a continuum: of that, the one member is wanted.
+void Continuation::probe(const VectorX& start) {
+  descent_.run(start, DescentGoal::kSolution);
+  const VectorX end = descent_.point().q;
+  if (!isAccepted(descent_.point().error)) return;
+  if (chain_.size() != task_.size() || weakest(end) > kNoValue * lengthUnit(chain_)) {
+    admit(end);
+  } else if (!probing_) {
+    probing_ = true;
+    traceFrom(end);
+    probing_ = false;
+  }
+}
+
 double Continuation::weakest(const ConstVectorRef& q) {
   point_.q = q;
   residual_.evaluate(point_);
@@ -149,9 +165,9 @@ void Continuation::scatterFrom(const VectorX& start) {
   for (Eigen::Index k = 0; k < directions.cols() && !watch_.expired(); ++k) {
     for (double length : kScatter) {
       const VectorX moved = start + length * directions.col(k);
-      descend(moved);
+      probe(moved);
       for (Eigen::Index l = 0; l < k; ++l) {
-        for (double other : kScatter) descend(moved + other * directions.col(l));
+        for (double other : kScatter) probe(moved + other * directions.col(l));
       }
     }
   }
@@ -172,8 +188,8 @@ int Continuation::traceFrom(const VectorX& start) {
   }
   for (std::size_t i = before; i < valley_.roots().size(); ++i) admit(valley_.roots()[i]);
   if (!whole) {
-    scatterFrom(start);
     complete_ = false;
+    if (!probing_) scatterFrom(start);
   }
   return -1;
 }
@@ -209,7 +225,7 @@ int Continuation::follow(const VectorX& start) {
 }
 
 void Continuation::restart(int count) {
-  for (int k = 1; k <= count && !watch_.expired(); ++k) descend(box().restart(k));
+  for (int k = 1; k <= count && !watch_.expired(); ++k) probe(box().restart(k));
 }
 
 bool Continuation::wasFollowed(const VectorX& start) const {
