@@ -219,6 +219,7 @@ int Continuation::follow(const VectorX& start) {
     // A descent that ends beside a solution has come to the bottom of its valley.
     const bool arrived = found >= 0 || descent_.point().error.norm() < kBeside;
     const int continuum = traceFrom(arrived ? VectorX(descent_.point().q) : start);
+    if (found < 0 && continuum < 0 && arrived) complete_ = false;
     if (found < 0) return continuum;
   }
   return found;
@@ -314,7 +315,11 @@ ContinuedSolutions ContinuedSolver::solve(const Pose& target, const VectorX& pre
   result.vanished = std::max(0, unclaimed - others);
   result.appeared = std::max(0, others - unclaimed);
   result.timed_out = watch.expired();
-  result.complete = continuation.complete() && !result.timed_out;
+  // A continuum stands where ideal solutions were: those that left it may have been taken for its members.
+  const bool stands_for_others =
+      result.vanished > 0 && std::any_of(result.solutions.begin(), result.solutions.end(),
+                                         [](const ContinuedSolution& s) { return s.free >= 0; });
+  result.complete = continuation.complete() && !result.timed_out && !stands_for_others;
   return result;
 }
 
