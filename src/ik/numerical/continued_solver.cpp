@@ -69,9 +69,9 @@ class Continuation {
 
   int descend(const VectorX& start);
   void probe(const VectorX& start);
-  int admit(VectorX q);
+  int admit(VectorX q, bool is_member = false);
   int indexOf(const VectorX& q, const TaskError& error);
-  int traceFrom(const VectorX& start);
+  int traceFrom(const VectorX& start, bool again = false);
   void scatterFrom(const VectorX& start);
   MatrixX weakDirections(const VectorX& q);
   double weakest(const ConstVectorRef& q);
@@ -111,11 +111,11 @@ int Continuation::indexOf(const VectorX& q, const TaskError& error) {
   return -1;
 }
 
-int Continuation::admit(VectorX q) {
+int Continuation::admit(VectorX q, bool is_member) {
   TaskError error = errorOf(q);
   if (error.norm() > kGoodEnough) error = polish(chain_, task_, target_, q);
   // Beside a singular solution much is almost one.
-  if (!isAccepted(error) || (error.norm() > kExact && error.norm() > kUncertain * weakest(q))) return -1;
+  if (!isAccepted(error) || (!is_member && error.norm() > kExact && error.norm() > kUncertain * weakest(q))) return -1;
   box().wrapUnbounded(q);
   const int known = indexOf(q, error);
   if (known >= 0) return known;
@@ -174,13 +174,13 @@ void Continuation::scatterFrom(const VectorX& start) {
 }
 
 /// The solution of a continuum that was found, or -1.
-int Continuation::traceFrom(const VectorX& start) {
-  if (valley_.passes(start)) return -1;
+int Continuation::traceFrom(const VectorX& start, bool again) {
+  if (!again && valley_.passes(start)) return -1;
   plain_ = false;
   const std::size_t before = valley_.roots().size();
   const bool whole = valley_.trace(start);
   if (valley_.isContinuum()) {
-    const int found = admit(valley_.memberNear(preferred_));
+    const int found = admit(valley_.memberNear(preferred_), true);
     if (found < 0) return -1;
     free_[static_cast<std::size_t>(found)] = valley_.freeJoint();
     continua_.push_back({found, valley_.lastPath()});
@@ -218,7 +218,7 @@ int Continuation::follow(const VectorX& start) {
   } else if (!first_trace) {
     // A descent that ends beside a solution has come to the bottom of its valley.
     const bool arrived = found >= 0 || descent_.point().error.norm() < kBeside;
-    const int continuum = traceFrom(arrived ? VectorX(descent_.point().q) : start);
+    const int continuum = traceFrom(arrived ? VectorX(descent_.point().q) : start, arrived && found < 0);
     if (found < 0 && continuum < 0 && arrived) complete_ = false;
     if (found < 0) return continuum;
   }
