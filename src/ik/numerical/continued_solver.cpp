@@ -22,7 +22,8 @@ constexpr double kAlmostSingular = 0.1;  ///< Of that.
 constexpr double kShortWay = 0.2;
 constexpr double kDepth = 10.0;  ///< Differences that solutions are looked for in along a valley.
 constexpr double kScatter[] = {-1.2, -0.4, -0.12, 0.12, 0.4, 1.2};  ///< Scaled; along directions about to be lost.
-constexpr int kRestarts = 64;  ///< Where solutions are about to meet: for what starts beside the pose miss.
+constexpr double kScatterAgain = 0.5;  ///< Scaled; closer to where it was done before, it is not.
+constexpr int kRestarts = 64;          ///< Where solutions are about to meet: for what starts beside the pose miss.
 constexpr int kMaxIterations = 60;
 constexpr double kGoodEnough = 1e-13;  ///< [m, rad] errors that Newton steps would not lessen.
 constexpr double kExact = 1e-12;       ///< [m, rad] errors that make a solution however singular it is.
@@ -97,6 +98,7 @@ class Continuation {
   std::vector<int> free_;  ///< Of each solution; -1: isolated.
   std::vector<Ring> continua_;
   std::vector<VectorX> followed_;
+  std::vector<VectorX> scattered_;
   bool complete_ = true;
   bool plain_ = true;
   bool probing_ = false;
@@ -161,6 +163,10 @@ MatrixX Continuation::weakDirections(const VectorX& q) {
 }
 
 void Continuation::scatterFrom(const VectorX& start) {
+  const bool done = std::any_of(scattered_.begin(), scattered_.end(),
+                                [&](const VectorX& other) { return box().distance(other, start) < kScatterAgain; });
+  if (done) return;
+  scattered_.push_back(start);
   const MatrixX directions = weakDirections(start);
   for (Eigen::Index k = 0; k < directions.cols() && !watch_.expired(); ++k) {
     for (double length : kScatter) {

@@ -21,7 +21,8 @@ constexpr double kBeside = 0.12;  ///< Nearer to a curve: on it.
 constexpr double kBracket = 1e-5;
 constexpr double kTouching = 1e-9;   ///< Depth, in units of the chain's length, that may be zero, ...
 constexpr double kRounding = 1e-12;  ///< ... and one that is, where it is nowhere more.
-constexpr double kHigh = 0.3;        ///< Of the bound: what breaks off there may.
+constexpr int kMostSteps = 400;
+constexpr double kHigh = 0.3;  ///< Of the bound: what breaks off there may.
 constexpr int kMaxCorrections = 12;
 constexpr int kFewCorrections = 3;
 constexpr int kMaxBisections = 40;
@@ -143,7 +144,8 @@ bool Valley::follow(const Node& origin, double direction) {
   double step = kFirstStep;
   double way = 0.0;
   bool has_before = false;
-  while (way < kLongestWay) {
+  for (int tries = 0; way < kLongestWay; ++tries) {
+    if (tries == kMostSteps) return false;
     Node next;
     if (!stepFrom(node, direction * step, next)) {
       step *= 0.5;
