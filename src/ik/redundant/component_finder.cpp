@@ -97,6 +97,10 @@ void ComponentFinder::addGrid() {
   }
 }
 
+void ComponentFinder::addExtrema(const ReachMargin& margin) {
+  for (double value : margin.maxima(target_, first_, first_ + kSlices * step_, kSlices)) addValue(value);
+}
+
 void ComponentFinder::addValue(double value) {
   RedundantSolutions solutions;
   solver_->solveAt(target_, value, Vector7::Zero(), solutions);

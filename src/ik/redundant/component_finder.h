@@ -2,6 +2,7 @@
 #define SCREWLINE_SRC_IK_REDUNDANT_COMPONENT_FINDER_H
 
 #include "pose_curve.h"
+#include "reach_margin.h"
 
 namespace screwline {
 
@@ -14,6 +15,8 @@ class ComponentFinder {
 
   /// Slices at evenly spaced values of the parameter joint.
   void addGrid();
+  /// Slices where the margin of reach is largest, for curves too short for the grid.
+  void addExtrema(const ReachMargin& margin);
   /// One slice more.
   void addValue(double value);
   /// Traces from a solution that lies on no curve yet. False where it is no solution, or singular.

@@ -9,6 +9,7 @@ namespace screwline {
 namespace {
 
 constexpr double kOnLimit = 1e-12;   // [rad, m]
+constexpr int kMaxDepth = 64;        // Limits between two nodes.
 constexpr double kTouching = 1e-10;  // [rad, m] A curve this near to the box touches it.
 
 bool cuts(const Joint& joint) {
@@ -30,17 +31,19 @@ bool limitBetween(const Joint& joint, double from, double to, double& value) {
   return false;
 }
 
-void append(PoseCurve& pose, const SelfMotionNode& a, const SelfMotionNode& b, std::vector<SelfMotionNode>& nodes) {
-  for (int i = 0; i < kRedundantJoints; ++i) {
+void append(PoseCurve& pose, const SelfMotionNode& a, const SelfMotionNode& b, int depth,
+            std::vector<SelfMotionNode>& nodes) {
+  for (int i = 0; i < kRedundantJoints && depth < kMaxDepth; ++i) {
     double limit = 0.0;
     if (!limitBetween(pose.chain().joint(i), a.q[i], b.q[i], limit)) continue;
     SelfMotionNode node;
     if (!nodeAtZero(
             pose, a, b, [i, limit](const SelfMotionNode& n) { return n.q[i] - limit; }, node))
       continue;
+    if (std::abs(node.q[i] - limit) > kTouching || node.arc <= a.arc || node.arc >= b.arc) continue;
     node.q[i] = limit;
-    append(pose, a, node, nodes);
-    append(pose, node, b, nodes);
+    append(pose, a, node, depth + 1, nodes);
+    append(pose, node, b, depth + 1, nodes);
     return;
   }
   nodes.push_back(b);
@@ -77,7 +80,7 @@ void keepWhole(SelfMotionCurve& curve) {
 void cutByLimits(PoseCurve& pose, SelfMotionCurve& curve) {
   const SerialChain& chain = pose.chain();
   std::vector<SelfMotionNode> nodes = {curve.nodes.front()};
-  for (std::size_t i = 0; i + 1 < curve.nodes.size(); ++i) append(pose, curve.nodes[i], curve.nodes[i + 1], nodes);
+  for (std::size_t i = 0; i + 1 < curve.nodes.size(); ++i) append(pose, curve.nodes[i], curve.nodes[i + 1], 0, nodes);
   curve.nodes = std::move(nodes);
   curve.intervals.clear();
   const int count = static_cast<int>(curve.nodes.size()) - 1;  // Segments.

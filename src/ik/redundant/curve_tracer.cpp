@@ -130,6 +130,7 @@ class Walk {
   bool ended_ = false;
 };
 
+constexpr int kMaxDepth = 40;     // Of splitting; not reached but where rounding makes tangents turn at random.
 constexpr double kStill = 1e-11;  // Tangents below it are rounding: the joint does not move.
 
 bool isStill(const SelfMotionNode& a, const SelfMotionNode& b, int joint) {
@@ -171,7 +172,8 @@ bool isUncertain(const SelfMotionNode& a, const SelfMotionNode& middle, const Se
 }
 
 /// Nodes behind `a` up to `b` such that joint values are monotone between them.
-void append(PoseCurve& pose, const SelfMotionNode& a, const SelfMotionNode& b, std::vector<SelfMotionNode>& nodes) {
+void append(PoseCurve& pose, const SelfMotionNode& a, const SelfMotionNode& b, int depth,
+            std::vector<SelfMotionNode>& nodes) {
   SelfMotionNode node;
   bool split = false;
   const int joint = turningJoint(a, b);
@@ -184,9 +186,9 @@ void append(PoseCurve& pose, const SelfMotionNode& a, const SelfMotionNode& b, s
     const unsigned suspects = suspectJoints(a, b, pose.norm(b.tangent - a.tangent));
     split = suspects != 0U && pose.between(a, b, 0.5, node) && isUncertain(a, node, b, suspects);
   }
-  if (split && static_cast<int>(nodes.size()) < kMaxCurveNodes) {
-    append(pose, a, node, nodes);
-    append(pose, node, b, nodes);
+  if (split && depth < kMaxDepth && static_cast<int>(nodes.size()) < kMaxCurveNodes) {
+    append(pose, a, node, depth + 1, nodes);
+    append(pose, node, b, depth + 1, nodes);
   } else {
     nodes.push_back(b);
   }
@@ -216,7 +218,7 @@ bool traceCurve(PoseCurve& pose, const Vector7& start, SelfMotionCurve& curve) {
 
 void splitAtExtrema(PoseCurve& pose, SelfMotionCurve& curve) {
   std::vector<SelfMotionNode> nodes = {curve.nodes.front()};
-  for (std::size_t i = 0; i + 1 < curve.nodes.size(); ++i) append(pose, curve.nodes[i], curve.nodes[i + 1], nodes);
+  for (std::size_t i = 0; i + 1 < curve.nodes.size(); ++i) append(pose, curve.nodes[i], curve.nodes[i + 1], 0, nodes);
   curve.nodes = std::move(nodes);
 }
 

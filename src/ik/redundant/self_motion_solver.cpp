@@ -9,6 +9,7 @@
 #include "curve_optimum.h"
 #include "curve_tracer.h"
 #include "question_seed.h"
+#include "reach_margin.h"
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/kinematics/singularity.h"
 
@@ -66,6 +67,10 @@ SelfMotionNode nodeAt(const SelfMotionCurve& curve, int index) {
 
 SelfMotionSolver::SelfMotionSolver(const SerialChain& chain)
     : chain_(chain), closed_form_(RedundantSolver::compile(chain)) {
+  if (closed_form_) {
+    const std::optional<ReachMargin> margin = ReachMargin::compile(chain, closed_form_->parameterJoint());
+    if (margin) margin_ = std::make_shared<const ReachMargin>(*margin);
+  }
   method_ = closed_form_ ? closed_form_->method() + ", self-motions followed along the null space"
                          : "numerical search for starts, self-motions followed along the null space";
 }
@@ -92,6 +97,7 @@ SelfMotionSet SelfMotionSolver::trace(const SelfMotionQuestion& question) const 
   };
   if (solver != nullptr) {
     finder.addGrid();
+    if (margin_) finder.addExtrema(*margin_);
     finder.finishSheets();
     set.complete = finder.unexplained() == 0;
   } else {

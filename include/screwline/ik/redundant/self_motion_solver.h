@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_IK_REDUNDANT_SELF_MOTION_SOLVER_H
 #define SCREWLINE_IK_REDUNDANT_SELF_MOTION_SOLVER_H
 
+#include <memory>
 #include <vector>
 
 #include "screwline/ik/redundant/self_motion.h"
@@ -50,6 +51,8 @@ enum class SelfMotionGoal {
   kFarthestFromSingularity,  ///< Largest smallest singular value, lengths in m.
 };
 
+class ReachMargin;
+
 /// Self-motions of a chain of seven joints for whole poses: every connected component of the solution set as a curve
 /// (Burdick 1989), cut exactly by joint limits. Where one joint given leaves a closed form, slices of all branches at
 /// 64 values of it find the curves; each curve is followed by predictor and corrector along the null space, so folds,
@@ -92,6 +95,7 @@ class SelfMotionSolver {
 
   SerialChain chain_;
   std::optional<RedundantSolver> closed_form_;
+  std::shared_ptr<const ReachMargin> margin_;  ///< Null where no such margin is known.
   std::string method_;
 };
 
