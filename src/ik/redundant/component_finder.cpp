@@ -1,21 +1,24 @@
 #include "component_finder.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <limits>
 
 #include "curve_tracer.h"
+#include "screwline/ik/numerical/numerical_solver.h"
 
 namespace screwline {
 namespace {
 
 constexpr int kSlices = 64;
-constexpr double kShift = 0.0137;       // Slices avoid the values that people choose.
-constexpr double kSamePoint = 1e-6;     // [rad] A configuration this near to a curve is on it.
-constexpr double kCubicError = 2e-3;    // [rad] of the uncorrected curve between nodes, many times over.
-constexpr double kSliceReach = 1e-3;    // [rad] A slice's solution is this near to the curve at most.
-constexpr double kRegular = 1e-6;       // Gain of a node from which a curve can be followed.
-constexpr double kFarthestSlide = 4.0;  // [lengths] Where a slide has no limits.
+constexpr double kShift = 0.0137;        // Slices avoid the values that people choose.
+constexpr double kSamePoint = 1e-6;      // [rad] A configuration this near to a curve is on it.
+constexpr double kCubicError = 2e-3;     // [rad] of the uncorrected curve between nodes, many times over.
+constexpr double kSliceReach = 1e-3;     // [rad] A slice's solution is this near to the curve at most.
+constexpr double kRegular = 1e-6;        // Gain of a node from which a curve can be followed.
+constexpr std::size_t kMostPoints = 16;  // Solutions without a curve that are told.
+constexpr double kFarthestSlide = 4.0;   // [lengths] Where a slide has no limits.
 
 /// Share at which the cubic's coordinate has a value between those of its ends.
 double shareAt(const SelfMotionNode& a, const SelfMotionNode& b, int joint, double value) {
@@ -91,7 +94,7 @@ void ComponentFinder::addGrid() {
       if (solution.free != 0U) {
         free_.push_back({slice, solution});
       } else if ((covered_[i] >> k & 1U) == 0U && !addStart(solution.q, kSliceReach)) {
-        ++unexplained_;
+        addPoint(solution);
       }
     }
   }
@@ -107,8 +110,8 @@ void ComponentFinder::addValue(double value) {
   for (const RedundantSolution& solution : solutions) {
     if (solution.free != 0U) {
       free_.push_back({-1, solution});
-    } else {
-      addStart(solution.q, kSliceReach);
+    } else if (!addStart(solution.q, kSliceReach)) {
+      addPoint(solution);
     }
   }
 }
@@ -153,14 +156,42 @@ void ComponentFinder::coverGrid(const SelfMotionCurve& curve) {
 }
 
 void ComponentFinder::addSheet(const RedundantSolution& member, bool parameter_moves) {
+  const int parameter = solver_->parameterJoint();
   SelfMotionSheet sheet;
-  sheet.member = member;
-  if (parameter_moves) sheet.free.push_back(solver_->parameterJoint());
+  sheet.member = parameter_moves ? member : refined(member);
+  sheet.parameter_moves = parameter_moves;
+  if (parameter_moves) sheet.free.push_back(parameter);
   for (int i = 0; i < kRedundantJoints; ++i) {
     if ((member.free >> i & 1U) != 0U) sheet.free.push_back(i);
   }
   sheet.branch = solver_->branchName(member);
-  sheets_.push_back(sheet);
+  const bool known = std::any_of(sheets_.begin(), sheets_.end(), [&](const SelfMotionSheet& other) {
+    if (other.free == sheet.free && !parameter_moves)
+      return pose_.norm(pose_.difference(other.member.q, sheet.member.q)) <= kSamePoint;
+    // One value of the parameter on a sheet that covers all values.
+    return !parameter_moves && other.parameter_moves && (member.free & ~other.member.free) == 0U;
+  });
+  if (!known) sheets_.push_back(sheet);
+}
+
+/// A solution at which no curve can be followed: too near to a singularity.
+void ComponentFinder::addPoint(const RedundantSolution& solution) {
+  ++unexplained_;
+  if (sheets_.size() < kMostPoints) addSheet(solution, false);
+}
+
+/// The value of the parameter at which a continuum exists, and a member there, to rounding: Newton's method of least
+/// norm moves the parameter as well.
+RedundantSolution ComponentFinder::refined(const RedundantSolution& member) const {
+  VectorX q = member.q;
+  polish(pose_.chain(), Task(), target_, q);
+  RedundantSolutions solutions;
+  solver_->solveAt(target_, q[solver_->parameterJoint()], member.q, solutions);
+  for (const RedundantSolution& solution : solutions) {
+    if (sameBranch(solution, member) && pose_.norm(pose_.difference(solution.q, member.q)) < kSliceReach)
+      return solution;
+  }
+  return member;
 }
 
 /// A continuum at one value of the parameter: a curve like others, if the Jacobian sees it.
@@ -185,18 +216,25 @@ void ComponentFinder::addFree(const Free& free) {
 }
 
 void ComponentFinder::finishSheets() {
+  // The more joints are free, the earlier: where rounding decides between them, the larger continuum holds the others.
+  std::stable_sort(free_.begin(), free_.end(), [](const Free& a, const Free& b) {
+    return std::bitset<32>(a.solution.free).count() > std::bitset<32>(b.solution.free).count();
+  });
   std::vector<bool> done(free_.size(), false);
   for (std::size_t i = 0; i < free_.size(); ++i) {
     if (done[i]) continue;
-    // Of the grid's slices, neighbours on the same branch are one sheet.
+    const unsigned mask = free_[i].solution.free;
+    const bool held = std::any_of(sheets_.begin(), sheets_.end(), [&](const SelfMotionSheet& sheet) {
+      return sheet.parameter_moves && mask != sheet.member.free && (mask & ~sheet.member.free) == 0U;
+    });
+    if (held) continue;
+    // Slices of the grid on the same branch are one sheet.
     bool parameter_moves = false;
-    int last = free_[i].slice;
-    for (std::size_t k = i + 1; k < free_.size(); ++k) {
-      if (done[k] || last < 0 || free_[k].slice != last + 1 || !sameBranch(free_[k].solution, free_[i].solution))
+    for (std::size_t k = i + 1; k < free_.size() && free_[i].slice >= 0; ++k) {
+      if (free_[k].slice < 0 || free_[k].slice == free_[i].slice || !sameBranch(free_[k].solution, free_[i].solution))
         continue;
       done[k] = true;
       parameter_moves = true;
-      last = free_[k].slice;
     }
     if (parameter_moves) {
       addSheet(free_[i].solution, true);
@@ -204,6 +242,7 @@ void ComponentFinder::finishSheets() {
       addFree(free_[i]);
     }
   }
+  free_.clear();
 }
 
 }  // namespace screwline

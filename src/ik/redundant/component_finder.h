@@ -21,7 +21,7 @@ class ComponentFinder {
   void addValue(double value);
   /// Traces from a solution that lies on no curve yet. False where it is no solution, or singular.
   bool addStart(const Vector7& q, double reach);
-  /// Joins what has been found about continua inside of slices into sheets. Once, at the end.
+  /// Joins what has been found about continua inside of slices into sheets.
   void finishSheets();
 
   std::vector<SelfMotionCurve>& curves() { return curves_; }
@@ -35,11 +35,11 @@ class ComponentFinder {
     RedundantSolution solution;
   };
 
-  double stepOf() const;
-  void solveSlice(int slice, double value);
   void coverGrid(const SelfMotionCurve& curve);
   void addFree(const Free& free);
   void addSheet(const RedundantSolution& member, bool parameter_moves);
+  void addPoint(const RedundantSolution& solution);
+  RedundantSolution refined(const RedundantSolution& member) const;
 
   PoseCurve& pose_;
   const RedundantSolver* solver_;

@@ -9,6 +9,7 @@ namespace screwline {
 namespace {
 
 constexpr double kOnLimit = 1e-12;   // [rad, m]
+constexpr double kRounding = 1e-15;  // [rad, m] A parameter joint that moves less stands still.
 constexpr int kMaxDepth = 64;        // Limits between two nodes.
 constexpr double kTouching = 1e-10;  // [rad, m] A curve this near to the box touches it.
 
@@ -115,7 +116,7 @@ void splitAtFolds(SelfMotionCurve& curve, int parameter) {
       const auto before = static_cast<std::size_t>(i == 0 ? count - 1 : i - 1);
       const double behind = curve.nodes[before + 1].q[parameter] - curve.nodes[before].q[parameter];
       const double ahead = curve.nodes[k + 1].q[parameter] - curve.nodes[k].q[parameter];
-      if (behind * ahead < 0.0) curve.folds.push_back(i);
+      if (behind * ahead < 0.0 && std::min(std::abs(behind), std::abs(ahead)) > kRounding) curve.folds.push_back(i);
     }
   }
   if (curve.folds.empty()) {

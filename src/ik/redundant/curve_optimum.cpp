@@ -13,7 +13,10 @@ constexpr int kBestCount = 6;    // Of the places where a maximum may be, so man
 
 double turnedValue(const Joint& joint, double value, double seed, bool ignore_limits) {
   const JointLimits& limits = joint.limits;
-  if (!joint.isRevolute()) return ignore_limits ? value : std::clamp(value, limits.lower, limits.upper);
+  if (!joint.isRevolute()) {
+    const bool rounded = value >= limits.lower - kBand && value <= limits.upper + kBand;
+    return rounded && !ignore_limits ? std::clamp(value, limits.lower, limits.upper) : value;
+  }
   const double nearest = seed + std::remainder(value - seed, kTwoPi);
   if (ignore_limits) return nearest;
   double turned = nearest;

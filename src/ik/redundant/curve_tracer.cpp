@@ -132,9 +132,11 @@ class Walk {
 
 constexpr int kMaxDepth = 40;     // Of splitting; not reached but where rounding makes tangents turn at random.
 constexpr double kStill = 1e-11;  // Tangents below it are rounding: the joint does not move.
+constexpr double kRoundingOfGain = 1e-13;  // The same over the gain: near a singularity tangents have fewer digits.
 
 bool isStill(const SelfMotionNode& a, const SelfMotionNode& b, int joint) {
-  return std::max(std::abs(a.tangent[joint]), std::abs(b.tangent[joint])) <= kStill;
+  const double rounding = kRoundingOfGain / std::max(std::min(a.gain, b.gain), 1e-9);
+  return std::max(std::abs(a.tangent[joint]), std::abs(b.tangent[joint])) <= std::max(kStill, rounding);
 }
 
 /// The joint that turns back between two nodes; -1: none.

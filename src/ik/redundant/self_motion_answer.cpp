@@ -6,6 +6,7 @@
 #include "curve_cut.h"
 #include "curve_optimum.h"
 #include "question_seed.h"
+#include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/ik/redundant/self_motion_solver.h"
 
 namespace screwline {
@@ -13,6 +14,8 @@ namespace {
 
 constexpr double kMoves = 1e-7;         // Of a tangent, or of a range: a joint that moves less does not move.
 constexpr double kBand = 1e-9;          // [rad, m] within which limits are decided.
+constexpr double kExact = 1e-12;        // [m, rad] errors that need no polish.
+constexpr double kTolerated = 1e-10;    // [m, rad] errors where nothing better can be had.
 constexpr double kSingularGain = 1e-9;  // Of the Jacobian's pivots.
 
 bool isWithinAll(const SerialChain& chain, const Vector7& q) {
@@ -108,19 +111,36 @@ Candidate candidateOf(const RedundantSolver& solver, const Pose& target, const S
   return candidate;
 }
 
-SelfMotionAnswer answerOf(const SerialChain& chain, const Candidate& candidate, const Vector7& seed,
+/// The closed form joins what rounding cannot tell from a double root: its members are off by the root of that at most.
+void refine(const SerialChain& chain, const Pose& target, bool ignore_limits, VectorX& q) {
+  const auto errorOf = [&] { return taskError(Task(), target, forwardKinematics(chain, q)).norm(); };
+  if (errorOf() <= kExact || polish(chain, Task(), target, q).norm() <= kExact) return;
+  DescentOptions options;
+  options.honour_limits = !ignore_limits;
+  options.tolerance = kTolerated;
+  const DescentResult descent = descend(chain, Task(), target, q, options);
+  if (descent.error.norm() < errorOf()) q = descent.q;
+}
+
+SelfMotionAnswer answerOf(const SerialChain& chain, const Pose& target, const Candidate& candidate, const Vector7& seed,
                           bool ignore_limits) {
-  const Continuum continuum = describeContinuum(chain, candidate, seed, ignore_limits);
   SelfMotionAnswer answer;
-  answer.q = continuum.nearest;
+  answer.self_motion.resize(0, kRedundantJoints);
+  if (candidate.free.empty()) {
+    answer.q = turnedTo(chain, candidate.q, seed, ignore_limits);
+  } else {
+    const Continuum continuum = describeContinuum(chain, candidate, seed, ignore_limits);
+    answer.q = continuum.nearest;
+    answer.self_motion = continuum.directions;
+    answer.free_joints = continuum.free_joints;
+    answer.lower = continuum.lower;
+    answer.upper = continuum.upper;
+  }
+  refine(chain, target, ignore_limits, answer.q);
   answer.branch = candidate.branch;
   answer.distance = (answer.q - seed).norm();
   answer.within_limits = isWithinAll(chain, answer.q);
   answer.singular = true;
-  answer.self_motion = continuum.directions;
-  answer.free_joints = continuum.free_joints;
-  answer.lower = continuum.lower;
-  answer.upper = continuum.upper;
   return answer;
 }
 
@@ -144,8 +164,8 @@ SelfMotionAnswers SelfMotionSolver::answer(const SelfMotionQuestion& question) c
       result.answers.push_back(answerOf(pose, curve, interval, seed, parameterJoint(), question.ignore_limits));
   }
   for (const SelfMotionSheet& sheet : set.sheets) {
-    const SelfMotionAnswer answer =
-        answerOf(chain_, candidateOf(*closed_form_, question.target, sheet), seed, question.ignore_limits);
+    const SelfMotionAnswer answer = answerOf(
+        chain_, question.target, candidateOf(*closed_form_, question.target, sheet), seed, question.ignore_limits);
     if (answer.within_limits || question.ignore_limits) {
       result.answers.push_back(answer);
     } else {

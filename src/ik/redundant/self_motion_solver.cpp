@@ -48,6 +48,25 @@ void nameArcs(PoseCurve& pose, const RedundantSolver& solver, const Pose& target
   }
 }
 
+void conclude(const SerialChain& chain, bool closed_form, SelfMotionSet& set) {
+  const bool turns_only =
+      std::all_of(chain.joints().begin(), chain.joints().end(), [](const Joint& joint) { return joint.isRevolute(); });
+  const bool broken = turns_only && std::any_of(set.curves.begin(), set.curves.end(),
+                                                [](const SelfMotionCurve& curve) { return !curve.closed; });
+  const bool crossing =
+      std::any_of(set.curves.begin(), set.curves.end(), [](const SelfMotionCurve& curve) { return curve.crosses; });
+  if (!closed_form) {
+    set.note = "curves that no start of the numerical search met are missing";
+  } else if (!set.complete) {
+    set.note = "a slice has solutions that no curve explains";
+  } else if (broken) {
+    set.note = "a curve could not be followed to its end";
+  } else if (crossing) {
+    set.note = "curves cross: each is told as it goes straight on";
+  }
+  set.complete = set.complete && !broken;
+}
+
 bool hasInterval(const SelfMotionSet& set) {
   return std::any_of(set.curves.begin(), set.curves.end(),
                      [](const SelfMotionCurve& curve) { return !curve.intervals.empty(); });
@@ -99,7 +118,6 @@ SelfMotionSet SelfMotionSolver::trace(const SelfMotionQuestion& question) const 
     finder.addGrid();
     if (margin_) finder.addExtrema(*margin_);
     finder.finishSheets();
-    set.complete = finder.unexplained() == 0;
   } else {
     for (const VectorX& q : searched(chain_, question, kStarts, 0, false)) finder.addStart(q, kNear);
   }
@@ -119,8 +137,8 @@ SelfMotionSet SelfMotionSolver::trace(const SelfMotionQuestion& question) const 
     set.curves = finder.curves();
     set.sheets = finder.sheets();
   }
-  set.note = solver != nullptr ? (set.complete ? "" : "a slice has solutions that no curve explains")
-                               : "curves that no start of the numerical search met are missing";
+  set.complete = solver != nullptr && finder.unexplained() == 0;
+  conclude(chain_, solver != nullptr, set);
   return set;
 }
 

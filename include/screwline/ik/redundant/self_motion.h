@@ -46,8 +46,10 @@ struct SelfMotionCurve {
 /// value alone, as with a straight arm) further joints are free.
 struct SelfMotionSheet {
   RedundantSolution member;  ///< One configuration, and the branch.
-  std::vector<int> free;     ///< Joints whose values give the others': as many as dimensions, the parameter joint first
-                             ///< where it moves.
+  /// Joints whose values give the others': as many as dimensions, the parameter joint first where it moves. Empty: a
+  /// point so near to a singularity that no curve can be followed.
+  std::vector<int> free;
+  bool parameter_moves = false;
   std::string branch;
 };
 
