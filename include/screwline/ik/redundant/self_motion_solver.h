@@ -58,11 +58,13 @@ class ReachMargin;
 /// 64 values of it find the curves; each curve is followed by predictor and corrector along the null space, so folds,
 /// where branches meet and the parameter turns back, are points as any other. Else numerical search finds the starts.
 ///
-/// Resolution. A curve is missed only if the parameter joint moves by less than 0.1 rad (a 64th of a slide's range)
-/// over the whole of it, lies between two slices, and the search for such small curves (from the extrema of reach) does
-/// not find it either. Between nodes joint values are monotone but for pairs of extrema less than 1e-5 rad of arc
-/// length apart, so a limit may be overrun unnoticed by 1e-9 rad. Branches nearer to each other than 1e-7 rad are taken
-/// to cross. Immutable; all functions allocate and may be called from many threads.
+/// Resolution. A curve may be missed where the parameter joint moves by less than 0.1 rad (a 64th of a slide's range)
+/// over the whole of it, between two slices. Where the point that the three meeting axes share is placed by turns of
+/// which the first two meet or are parallel, the maxima of the margin of reach find such curves too (an arm almost
+/// straight); with a quartic, slides or a middle joint as parameter they do not, and `complete` holds to this
+/// resolution only. Between nodes joint values are monotone but for pairs of extrema less than 1e-5 rad of arc length
+/// apart, so a limit may be overrun unnoticed by 1e-9 rad. Branches nearer to each other than 1e-7 rad are taken to
+/// cross. Immutable; all functions allocate and may be called from many threads.
 class SelfMotionSolver {
  public:
   /// Empty where the chain has not seven joints, or mimic joints.
@@ -80,7 +82,8 @@ class SelfMotionSolver {
   SelfMotionAnswers answer(const SelfMotionQuestion& question) const;
 
   /// All branches at one value of the parameter joint, wrapped into limits as answer() does; those outside are left out
-  /// and counted unless ignored. Their free_joints are those of the branch alone. @pre parameterJoint() >= 0
+  /// and counted unless ignored. Without self-motions; `singular` where the branch is double or a continuum, of which
+  /// this is one member. @pre parameterJoint() >= 0
   SelfMotionAnswers answerAt(const SelfMotionQuestion& question, double value) const;
 
   /// The best member of one interval of a curve, to 1e-9 in what is optimised.
