@@ -1,0 +1,248 @@
+#include "component_finder.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <limits>
+
+#include "curve_tracer.h"
+#include "screwline/ik/numerical/numerical_solver.h"
+
+namespace screwline {
+namespace {
+
+constexpr int kSlices = 64;
+constexpr double kShift = 0.0137;        // Slices avoid the values that people choose.
+constexpr double kSamePoint = 1e-6;      // [rad] A configuration this near to a curve is on it.
+constexpr double kCubicError = 2e-3;     // [rad] of the uncorrected curve between nodes, many times over.
+constexpr double kSliceReach = 1e-3;     // [rad] A slice's solution is this near to the curve at most.
+constexpr double kRegular = 1e-6;        // Gain of a node from which a curve can be followed.
+constexpr std::size_t kMostPoints = 16;  // Solutions without a curve that are told.
+constexpr double kFarthestSlide = 4.0;   // [lengths] Where a slide has no limits.
+
+/// Share at which the cubic's coordinate has a value between those of its ends.
+double shareAt(const SelfMotionNode& a, const SelfMotionNode& b, int joint, double value) {
+  const double h = b.arc - a.arc;
+  const auto coordinate = [&](double s) {
+    const double r = 1.0 - s;
+    return r * r * (1.0 + 2.0 * s) * a.q[joint] + s * s * (1.0 + 2.0 * r) * b.q[joint] +
+           h * s * r * (r * a.tangent[joint] - s * b.tangent[joint]);
+  };
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((coordinate(middle) < value) == (a.q[joint] < b.q[joint]) ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+bool sameBranch(const RedundantSolution& a, const RedundantSolution& b) {
+  return a.free == b.free && a.sign == b.sign && a.rank == b.rank;
+}
+
+}  // namespace
+
+double distanceToCurve(PoseCurve& pose, const SelfMotionCurve& curve, const Vector7& q, double reach) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < curve.nodes.size(); ++i) {
+    const SelfMotionNode& a = curve.nodes[i];
+    const SelfMotionNode& b = curve.nodes[i + 1];
+    const double h = b.arc - a.arc;
+    const Vector7 from = pose.difference(a.q, q);
+    if (h <= 0.0 || pose.norm(from) > 1.1 * h + reach) continue;
+    double share = std::clamp(pose.dot(from, a.tangent) / h, 0.0, 1.0);
+    SelfMotionNode node = a;
+    for (int k = 0; k < 6; ++k) {
+      if (!pose.between(a, b, share, node)) break;
+      const double step = pose.dot(pose.difference(node.q, q), node.tangent) / h;
+      const double next = std::clamp(share + step, 0.0, 1.0);
+      if (std::abs(next - share) < 1e-14) break;
+      share = next;
+    }
+    least = std::min(least, pose.norm(pose.difference(node.q, q)));
+  }
+  return least <= reach ? least : std::numeric_limits<double>::infinity();
+}
+
+ComponentFinder::ComponentFinder(PoseCurve& pose, const RedundantSolver* solver, const Pose& target)
+    : pose_(pose), solver_(solver), target_(target) {
+  if (solver == nullptr) return;
+  const int joint = solver->parameterJoint();
+  if (pose.isRevolute(joint)) {
+    step_ = kTwoPi / kSlices;
+    first_ = -kPi + kShift;
+    return;
+  }
+  const JointLimits& limits = pose.chain().joint(joint).limits;
+  const double far = kFarthestSlide * pose.chain().characteristicLength() + target.p.norm();
+  first_ = std::max(limits.lower, -far);
+  const double last = std::max(first_, std::min(limits.upper, far));
+  step_ = std::max((last - first_) / kSlices, 1e-9);
+  first_ += 0.5 * step_;
+}
+
+void ComponentFinder::addGrid() {
+  grid_.resize(kSlices);
+  covered_.assign(kSlices, 0U);
+  for (int slice = 0; slice < kSlices; ++slice)
+    solver_->solveAt(target_, first_ + slice * step_, Vector7::Zero(), grid_[static_cast<std::size_t>(slice)]);
+  for (int slice = 0; slice < kSlices; ++slice) {
+    const auto i = static_cast<std::size_t>(slice);
+    for (int k = 0; k < grid_[i].count; ++k) {
+      const RedundantSolution& solution = grid_[i].solutions[static_cast<std::size_t>(k)];
+      if (solution.free != 0U) {
+        free_.push_back({slice, solution});
+      } else if ((covered_[i] >> k & 1U) == 0U && !addStart(solution.q, kSliceReach)) {
+        addPoint(solution);
+      }
+    }
+  }
+}
+
+void ComponentFinder::addExtrema(const ReachMargin& margin) {
+  for (double value : margin.maxima(target_, first_, first_ + kSlices * step_, kSlices)) addValue(value);
+}
+
+void ComponentFinder::addValue(double value) {
+  RedundantSolutions solutions;
+  solver_->solveAt(target_, value, Vector7::Zero(), solutions);
+  for (const RedundantSolution& solution : solutions) {
+    if (solution.free != 0U) {
+      free_.push_back({-1, solution});
+    } else if (!addStart(solution.q, kSliceReach)) {
+      addPoint(solution);
+    }
+  }
+}
+
+bool ComponentFinder::addStart(const Vector7& q, double reach) {
+  SelfMotionNode node;
+  if (!pose_.correct(q, reach, node)) return false;
+  for (const SelfMotionCurve& curve : curves_) {
+    if (distanceToCurve(pose_, curve, node.q, 0.05) <= kSamePoint) return true;
+  }
+  SelfMotionCurve curve;
+  if (!traceCurve(pose_, node.q, curve)) return false;
+  coverGrid(curve);
+  curves_.push_back(std::move(curve));
+  return true;
+}
+
+void ComponentFinder::coverGrid(const SelfMotionCurve& curve) {
+  if (grid_.empty()) return;
+  const int joint = solver_->parameterJoint();
+  const bool turns = pose_.isRevolute(joint);
+  for (std::size_t i = 0; i + 1 < curve.nodes.size(); ++i) {
+    const SelfMotionNode& a = curve.nodes[i];
+    const SelfMotionNode& b = curve.nodes[i + 1];
+    const double low = std::min(a.q[joint], b.q[joint]);
+    const double high = std::max(a.q[joint], b.q[joint]);
+    for (double k = std::ceil((low - first_) / step_); first_ + k * step_ <= high; k += 1.0) {
+      if (!turns && (k < 0.0 || k >= kSlices)) continue;
+      const auto slice = static_cast<std::size_t>(k - kSlices * std::floor(k / kSlices));
+      const Vector7 q = cubicBetween(a, b, shareAt(a, b, joint, first_ + k * step_));
+      double least = kCubicError;
+      int nearest = -1;
+      for (int n = 0; n < grid_[slice].count; ++n) {
+        const double off = pose_.norm(pose_.difference(grid_[slice].solutions[static_cast<std::size_t>(n)].q, q));
+        if (off >= least) continue;
+        least = off;
+        nearest = n;
+      }
+      if (nearest >= 0) covered_[slice] |= 1U << nearest;
+    }
+  }
+}
+
+void ComponentFinder::addSheet(const RedundantSolution& member, bool parameter_moves) {
+  const int parameter = solver_->parameterJoint();
+  SelfMotionSheet sheet;
+  sheet.member = parameter_moves ? member : refined(member);
+  sheet.parameter_moves = parameter_moves;
+  if (parameter_moves) sheet.free.push_back(parameter);
+  for (int i = 0; i < kRedundantJoints; ++i) {
+    if ((member.free >> i & 1U) != 0U) sheet.free.push_back(i);
+  }
+  sheet.branch = solver_->branchName(member);
+  const bool known = std::any_of(sheets_.begin(), sheets_.end(), [&](const SelfMotionSheet& other) {
+    if (other.free == sheet.free && !parameter_moves)
+      return pose_.norm(pose_.difference(other.member.q, sheet.member.q)) <= kSamePoint;
+    // One value of the parameter on a sheet that covers all values.
+    return !parameter_moves && other.parameter_moves && (member.free & ~other.member.free) == 0U;
+  });
+  if (!known) sheets_.push_back(sheet);
+}
+
+/// A solution at which no curve can be followed: too near to a singularity.
+void ComponentFinder::addPoint(const RedundantSolution& solution) {
+  ++unexplained_;
+  if (sheets_.size() < kMostPoints) addSheet(solution, false);
+}
+
+/// The value of the parameter at which a continuum exists, and a member there, to rounding: Newton's method of least
+/// norm moves the parameter as well.
+RedundantSolution ComponentFinder::refined(const RedundantSolution& member) const {
+  VectorX q = member.q;
+  polish(pose_.chain(), Task(), target_, q);
+  RedundantSolutions solutions;
+  solver_->solveAt(target_, q[solver_->parameterJoint()], member.q, solutions);
+  for (const RedundantSolution& solution : solutions) {
+    if (sameBranch(solution, member) && pose_.norm(pose_.difference(solution.q, member.q)) < kSliceReach)
+      return solution;
+  }
+  return member;
+}
+
+/// A continuum at one value of the parameter: a curve like others, if the Jacobian sees it.
+void ComponentFinder::addFree(const Free& free) {
+  const int joint = [&] {
+    int i = 0;
+    while ((free.solution.free >> i & 1U) == 0U) ++i;
+    return i;
+  }();
+  RedundantSolutions members;
+  for (double value : {0.3, 1.9, -1.2}) {
+    Vector7 wished = Vector7::Zero();
+    wished[joint] = value;
+    solver_->solveAt(target_, free.solution.q[solver_->parameterJoint()], wished, members);
+    for (const RedundantSolution& member : members) {
+      SelfMotionNode node;
+      if (!sameBranch(member, free.solution) || !pose_.correct(member.q, kSliceReach, node)) continue;
+      if (node.gain > kRegular && addStart(node.q, kSliceReach)) return;
+    }
+  }
+  addSheet(free.solution, false);
+}
+
+void ComponentFinder::finishSheets() {
+  // The more joints are free, the earlier: where rounding decides between them, the larger continuum holds the others.
+  std::stable_sort(free_.begin(), free_.end(), [](const Free& a, const Free& b) {
+    return std::bitset<32>(a.solution.free).count() > std::bitset<32>(b.solution.free).count();
+  });
+  std::vector<bool> done(free_.size(), false);
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    if (done[i]) continue;
+    const unsigned mask = free_[i].solution.free;
+    const bool held = std::any_of(sheets_.begin(), sheets_.end(), [&](const SelfMotionSheet& sheet) {
+      return sheet.parameter_moves && mask != sheet.member.free && (mask & ~sheet.member.free) == 0U;
+    });
+    if (held) continue;
+    // Slices of the grid on the same branch are one sheet.
+    bool parameter_moves = false;
+    for (std::size_t k = i + 1; k < free_.size() && free_[i].slice >= 0; ++k) {
+      if (free_[k].slice < 0 || free_[k].slice == free_[i].slice || !sameBranch(free_[k].solution, free_[i].solution))
+        continue;
+      done[k] = true;
+      parameter_moves = true;
+    }
+    if (parameter_moves) {
+      addSheet(free_[i].solution, true);
+    } else {
+      addFree(free_[i]);
+    }
+  }
+  free_.clear();
+}
+
+}  // namespace screwline

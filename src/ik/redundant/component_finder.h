@@ -1,0 +1,62 @@
+#ifndef SCREWLINE_SRC_IK_REDUNDANT_COMPONENT_FINDER_H
+#define SCREWLINE_SRC_IK_REDUNDANT_COMPONENT_FINDER_H
+
+#include "pose_curve.h"
+#include "reach_margin.h"
+
+namespace screwline {
+
+/// Collects the curves that solve a pose: slices through the solution set at values of the parameter joint, every
+/// solution of which has to lie on a curve; from those that do not yet, a curve is traced.
+class ComponentFinder {
+ public:
+  /// `solver` may be null: then only addStart() finds curves.
+  ComponentFinder(PoseCurve& pose, const RedundantSolver* solver, const Pose& target);
+
+  /// Slices at evenly spaced values of the parameter joint.
+  void addGrid();
+  /// Slices where the margin of reach is largest, for curves too short for the grid.
+  void addExtrema(const ReachMargin& margin);
+  /// One slice more.
+  void addValue(double value);
+  /// Traces from a solution that lies on no curve yet. False where it is no solution, or singular.
+  bool addStart(const Vector7& q, double reach);
+  /// Joins what has been found about continua inside of slices into sheets.
+  void finishSheets();
+
+  std::vector<SelfMotionCurve>& curves() { return curves_; }
+  std::vector<SelfMotionSheet>& sheets() { return sheets_; }
+  /// Solutions of slices that lie on no curve nor sheet.
+  int unexplained() const { return unexplained_; }
+
+ private:
+  struct Free {
+    int slice = 0;
+    RedundantSolution solution;
+  };
+
+  void coverGrid(const SelfMotionCurve& curve);
+  void addFree(const Free& free);
+  void addSheet(const RedundantSolution& member, bool parameter_moves);
+  void addPoint(const RedundantSolution& solution);
+  RedundantSolution refined(const RedundantSolution& member) const;
+
+  PoseCurve& pose_;
+  const RedundantSolver* solver_;
+  Pose target_;
+  double first_ = 0.0;  ///< Value of the first slice; the others follow by step_.
+  double step_ = 0.0;
+  std::vector<RedundantSolutions> grid_;
+  std::vector<unsigned> covered_;  ///< Per slice of the grid, bit k: its solution k lies on a curve.
+  std::vector<SelfMotionCurve> curves_;
+  std::vector<Free> free_;
+  std::vector<SelfMotionSheet> sheets_;
+  int unexplained_ = 0;
+};
+
+/// Distance of a configuration from a curve, if it is below `reach` (else infinity); revolute joints modulo full turns.
+double distanceToCurve(PoseCurve& pose, const SelfMotionCurve& curve, const Vector7& q, double reach);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SRC_IK_REDUNDANT_COMPONENT_FINDER_H

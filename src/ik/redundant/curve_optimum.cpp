@@ -1,0 +1,136 @@
+#include "curve_optimum.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "curve_tracer.h"
+
+namespace screwline {
+namespace {
+
+constexpr double kBand = 1e-10;  // [rad, m] beyond a limit that rounding may bring.
+constexpr int kBestCount = 6;    // Of the places where a maximum may be, so many are refined.
+
+double turnedValue(const Joint& joint, double value, double seed, bool ignore_limits) {
+  const JointLimits& limits = joint.limits;
+  if (!joint.isRevolute()) {
+    const bool rounded = value >= limits.lower - kBand && value <= limits.upper + kBand;
+    return rounded && !ignore_limits ? std::clamp(value, limits.lower, limits.upper) : value;
+  }
+  const double nearest = seed + std::remainder(value - seed, kTwoPi);
+  if (ignore_limits) return nearest;
+  double turned = nearest;
+  if (nearest < limits.lower - kBand)
+    turned += kTwoPi * std::ceil((limits.lower - kBand - nearest) / kTwoPi);
+  else if (nearest > limits.upper + kBand)
+    turned -= kTwoPi * std::ceil((nearest - limits.upper - kBand) / kTwoPi);
+  // Of a joint that is nowhere within, the value as it is.
+  if (turned < limits.lower - kBand || turned > limits.upper + kBand) return nearest;
+  return std::clamp(turned, limits.lower, limits.upper);
+}
+
+/// Where on the interval f is largest between two indices: golden section over a stretch of segments.
+SelfMotionNode refine(PoseCurve& pose, const SelfMotionNode& a, const SelfMotionNode& b,
+                      const std::function<double(const Vector7&)>& value) {
+  constexpr double kGolden = 0.6180339887498949;
+  SelfMotionNode left;
+  SelfMotionNode right;
+  double low = 0.0;
+  double high = 1.0;
+  const auto at = [&](double share, SelfMotionNode& node) {
+    return pose.between(a, b, share, node) ? value(node.q) : -std::numeric_limits<double>::infinity();
+  };
+  double x = high - kGolden * (high - low);
+  double y = low + kGolden * (high - low);
+  double fx = at(x, left);
+  double fy = at(y, right);
+  while ((high - low) * (b.arc - a.arc) > 1e-9) {
+    if (fx >= fy) {
+      high = y;
+      y = x;
+      fy = fx;
+      right = left;
+      x = high - kGolden * (high - low);
+      fx = at(x, left);
+    } else {
+      low = x;
+      x = y;
+      fx = fy;
+      left = right;
+      y = low + kGolden * (high - low);
+      fy = at(y, right);
+    }
+  }
+  return fx >= fy ? left : right;
+}
+
+}  // namespace
+
+Vector7 turnedTo(const SerialChain& chain, const Vector7& q, const Vector7& seed, bool ignore_limits) {
+  Vector7 turned;
+  for (int i = 0; i < kRedundantJoints; ++i) turned[i] = turnedValue(chain.joint(i), q[i], seed[i], ignore_limits);
+  return turned;
+}
+
+SelfMotionNode nearestNode(PoseCurve& pose, const SelfMotionCurve& curve, const SelfMotionInterval& interval,
+                           const Vector7& seed, bool ignore_limits) {
+  const auto off = [&](const SelfMotionNode& node) {
+    return Vector7(turnedTo(pose.chain(), node.q, seed, ignore_limits) - seed);
+  };
+  SelfMotionNode best = nodeAt(curve, interval.first);
+  double least = off(best).norm();
+  for (int i = interval.first; i <= interval.last; ++i) {
+    const SelfMotionNode node = nodeAt(curve, i);
+    const double distance = off(node).norm();
+    if (distance >= least) continue;
+    least = distance;
+    best = node;
+  }
+  const auto slope = [&](const SelfMotionNode& node) { return off(node).dot(node.tangent); };
+  for (int i = interval.first; i < interval.last; ++i) {
+    const SelfMotionNode a = nodeAt(curve, i);
+    const SelfMotionNode b = nodeAt(curve, i + 1);
+    // No point between is nearer than this.
+    const double stretch = std::max(1.0, pose.chain().characteristicLength());
+    if (std::min(off(a).norm(), off(b).norm()) - stretch * (b.arc - a.arc) >= least) continue;
+    SelfMotionNode node;
+    if (!(slope(a) < 0.0 && slope(b) > 0.0) || !nodeAtZero(pose, a, b, slope, node)) continue;
+    const double distance = off(node).norm();
+    if (distance >= least) continue;
+    least = distance;
+    best = node;
+  }
+  return best;
+}
+
+SelfMotionNode largestNode(PoseCurve& pose, const SelfMotionCurve& curve, const SelfMotionInterval& interval,
+                           const std::function<double(const Vector7&)>& value) {
+  std::vector<SelfMotionNode> points;
+  for (int i = interval.first; i <= interval.last; ++i) {
+    points.push_back(nodeAt(curve, i));
+    SelfMotionNode middle;
+    if (i < interval.last && pose.between(points.back(), nodeAt(curve, i + 1), 0.5, middle)) points.push_back(middle);
+  }
+  std::vector<double> values;
+  for (const SelfMotionNode& point : points) values.push_back(value(point.q));
+  std::vector<std::size_t> peaks;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if ((i == 0 || values[i] >= values[i - 1]) && (i + 1 == points.size() || values[i] >= values[i + 1]))
+      peaks.push_back(i);
+  }
+  std::sort(peaks.begin(), peaks.end(), [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
+  peaks.resize(std::min<std::size_t>(peaks.size(), kBestCount));
+  SelfMotionNode best = points[peaks.front()];
+  double most = values[peaks.front()];
+  for (std::size_t peak : peaks) {
+    for (std::size_t i = peak == 0 ? 0 : peak - 1; i < std::min(peak + 1, points.size() - 1); ++i) {
+      const SelfMotionNode node = refine(pose, points[i], points[i + 1], value);
+      if (!(value(node.q) > most)) continue;
+      most = value(node.q);
+      best = node;
+    }
+  }
+  return best;
+}
+
+}  // namespace screwline

@@ -1,0 +1,227 @@
+#include "curve_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace screwline {
+namespace {
+
+constexpr double kFirstStep = 0.02;
+constexpr double kLongestStep = 0.5;
+constexpr double kShortestStep = 1e-7;    // Below it, branches that do not join cannot be told from a crossing.
+constexpr double kMostTurn = 0.25;        // [rad] of the tangent in one step.
+constexpr double kMostCorrection = 0.15;  // Of a step.
+constexpr double kSingularStart = 1e-9;   // Gain below which a start has no tangent.
+constexpr double kFarthest = 1000.0;      // [rad, lengths] An open curve ends there.
+
+/// Where the next step is to begin: the node, walked in `way` of its oriented tangent.
+class Walk {
+ public:
+  Walk(PoseCurve& pose, const SelfMotionNode& start, double way) : pose_(pose), start_(start), at_(start), way_(way) {
+    at_.tangent *= way;
+    at_.arc = 0.0;
+    start_ = at_;
+  }
+
+  /// True where it comes back to the start.
+  bool run(std::vector<SelfMotionNode>& nodes, bool& crosses) {
+    nodes.push_back(at_);
+    while (static_cast<int>(nodes.size()) < kMaxCurveNodes) {
+      const bool passed_start = step(crosses);
+      if (passed_start) {
+        nodes.push_back(closing(nodes.back()));
+        return true;
+      }
+      nodes.push_back(at_);
+      if (isOver()) break;
+    }
+    return false;
+  }
+
+ private:
+  /// One step on; true where it passes the start.
+  bool step(bool& crosses) {
+    for (;;) {
+      SelfMotionNode next;
+      const bool shortest = h_ <= kShortestStep;
+      const Vector7 ahead = at_.q + h_ * at_.tangent + 0.5 * h_ * h_ * bend_;
+      const bool found = pose_.correct(ahead, (shortest ? 1.0 : kMostCorrection) * h_, next);
+      double along = found ? way_ * pose_.dot(next.tangent, at_.tangent) : 0.0;
+      if (shortest && (!found || std::abs(along) < 0.5)) return jump(crosses);
+      if (shortest && along < 0.0) {
+        way_ = -way_;
+        along = -along;
+        crosses = true;
+      }
+      if (along < std::cos(kMostTurn)) {
+        if (!shortest) {
+          h_ = std::max(0.5 * h_, kShortestStep);
+          continue;
+        }
+      }
+      return take(next, along);
+    }
+  }
+
+  bool take(SelfMotionNode& next, double along) {
+    const double turn = std::acos(std::min(1.0, along));
+    next.tangent *= way_;
+    next.arc = at_.arc + pose_.norm(next.q - at_.q) * (1.0 + turn * turn / 24.0);
+    const bool passes = passesStart(next);
+    bend_ = (next.tangent - at_.tangent) / (next.arc - at_.arc);
+    at_ = next;
+    const double growth = turn > 0.0 ? std::clamp(0.7 * kMostTurn / turn, 0.5, 2.0) : 2.0;
+    h_ = std::clamp(growth * h_, kShortestStep, kLongestStep);
+    return passes;
+  }
+
+  /// Straight over a singular point that no step comes near enough to.
+  bool jump(bool& crosses) {
+    crosses = true;
+    for (double h : {3e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
+      SelfMotionNode next;
+      if (!pose_.correct(at_.q + h * at_.tangent, 0.5 * h, next)) continue;
+      const double along = pose_.dot(next.tangent, at_.tangent);
+      if (std::abs(along) < 0.9) continue;
+      way_ = std::copysign(1.0, along);
+      h_ = 1e-6;
+      return take(next, std::abs(along));
+    }
+    ended_ = true;
+    return false;
+  }
+
+  bool passesStart(const SelfMotionNode& next) const {
+    const double h = next.arc - at_.arc;
+    const Vector7 from = pose_.difference(at_.q, start_.q);
+    const double ahead = pose_.dot(from, at_.tangent);
+    if (at_.arc == 0.0 || pose_.norm(from) > 1.2 * h || ahead <= 0.0) return false;
+    const Vector7 to = pose_.difference(next.q, start_.q);
+    if (pose_.dot(to, next.tangent) > 0.0) return false;
+    const double off = (from - ahead * at_.tangent).norm();
+    return off <= 0.2 * h && pose_.dot(start_.tangent, at_.tangent) > 0.8;
+  }
+
+  SelfMotionNode closing(const SelfMotionNode& last) const {
+    SelfMotionNode node = start_;
+    const Vector7 step = pose_.difference(last.q, start_.q);
+    node.q = last.q + step;
+    node.arc = last.arc + pose_.norm(step);
+    return node;
+  }
+
+  bool isOver() const {
+    if (ended_) return true;
+    for (int i = 0; i < kRedundantJoints; ++i) {
+      if (pose_.isRevolute(i)) continue;
+      const JointLimits& limits = pose_.chain().joint(i).limits;
+      if (at_.q[i] < limits.lower || at_.q[i] > limits.upper) return true;
+      if (std::abs(at_.q[i]) > kFarthest * pose_.chain().characteristicLength()) return true;
+    }
+    return at_.arc > kFarthest;
+  }
+
+  PoseCurve& pose_;
+  SelfMotionNode start_;
+  SelfMotionNode at_;
+  Vector7 bend_ = Vector7::Zero();
+  double h_ = kFirstStep;
+  double way_;  ///< Of the walk against the oriented tangents: 1 or -1.
+  bool ended_ = false;
+};
+
+constexpr int kMaxDepth = 40;     // Of splitting; not reached but where rounding makes tangents turn at random.
+constexpr double kStill = 1e-11;  // Tangents below it are rounding: the joint does not move.
+constexpr double kRoundingOfGain = 1e-13;  // The same over the gain: near a singularity tangents have fewer digits.
+
+bool isStill(const SelfMotionNode& a, const SelfMotionNode& b, int joint) {
+  const double rounding = kRoundingOfGain / std::max(std::min(a.gain, b.gain), 1e-9);
+  return std::max(std::abs(a.tangent[joint]), std::abs(b.tangent[joint])) <= std::max(kStill, rounding);
+}
+
+/// The joint that turns back between two nodes; -1: none.
+int turningJoint(const SelfMotionNode& a, const SelfMotionNode& b) {
+  for (int i = 0; i < kRedundantJoints; ++i) {
+    if (a.tangent[i] * b.tangent[i] < 0.0 && !isStill(a, b, i)) return i;
+  }
+  return -1;
+}
+
+/// Joints that could turn back twice between two nodes, as bits: tangents deviate from the line between them by an
+/// eighth of the square of the turn where the curvature is even; the square is on the safe side.
+unsigned suspectJoints(const SelfMotionNode& a, const SelfMotionNode& b, double turn) {
+  unsigned suspects = 0;
+  for (int i = 0; i < kRedundantJoints; ++i) {
+    const double least = std::min(std::abs(a.tangent[i]), std::abs(b.tangent[i]));
+    if (least < turn * turn && !isStill(a, b, i)) suspects |= 1U << i;
+  }
+  return suspects;
+}
+
+/// Whether the node half-way shows that the suspects do turn back, or leaves it open.
+bool isUncertain(const SelfMotionNode& a, const SelfMotionNode& middle, const SelfMotionNode& b, unsigned suspects) {
+  for (int i = 0; i < kRedundantJoints; ++i) {
+    if ((suspects >> i & 1U) == 0U) continue;
+    const double f = middle.tangent[i];
+    const double ends = a.tangent[i] + b.tangent[i];
+    double least = std::abs(f);
+    for (double end : {a.tangent[i], b.tangent[i]}) {
+      if (end != 0.0) least = std::min(least, std::abs(end));
+    }
+    if (f * ends <= 0.0 || 3.0 * std::abs(f - 0.5 * ends) > least) return true;
+  }
+  return false;
+}
+
+/// Nodes behind `a` up to `b` such that joint values are monotone between them.
+void append(PoseCurve& pose, const SelfMotionNode& a, const SelfMotionNode& b, int depth,
+            std::vector<SelfMotionNode>& nodes) {
+  SelfMotionNode node;
+  bool split = false;
+  const int joint = turningJoint(a, b);
+  if (joint >= 0) {
+    split = nodeAtZero(
+                pose, a, b, [joint](const SelfMotionNode& n) { return n.tangent[joint]; }, node) &&
+            node.arc > a.arc && node.arc < b.arc;
+    if (split) node.tangent[joint] = 0.0;
+  } else if (b.arc - a.arc > kNodeResolution) {
+    const unsigned suspects = suspectJoints(a, b, pose.norm(b.tangent - a.tangent));
+    split = suspects != 0U && pose.between(a, b, 0.5, node) && isUncertain(a, node, b, suspects);
+  }
+  if (split && depth < kMaxDepth && static_cast<int>(nodes.size()) < kMaxCurveNodes) {
+    append(pose, a, node, depth + 1, nodes);
+    append(pose, node, b, depth + 1, nodes);
+  } else {
+    nodes.push_back(b);
+  }
+}
+
+}  // namespace
+
+bool traceCurve(PoseCurve& pose, const Vector7& start, SelfMotionCurve& curve) {
+  SelfMotionNode node;
+  if (!pose.correct(start, 0.1, node) || node.gain <= kSingularStart) return false;
+  curve = SelfMotionCurve();
+  curve.closed = Walk(pose, node, 1.0).run(curve.nodes, curve.crosses);
+  if (curve.closed) return true;
+  std::vector<SelfMotionNode> behind;
+  Walk(pose, node, -1.0).run(behind, curve.crosses);
+  std::reverse(behind.begin(), behind.end());
+  const double length = behind.front().arc;
+  for (SelfMotionNode& n : behind) {
+    n.arc = length - n.arc;
+    n.tangent = -n.tangent;
+  }
+  for (SelfMotionNode& n : curve.nodes) n.arc += length;
+  behind.pop_back();
+  curve.nodes.insert(curve.nodes.begin(), behind.begin(), behind.end());
+  return true;
+}
+
+void splitAtExtrema(PoseCurve& pose, SelfMotionCurve& curve) {
+  std::vector<SelfMotionNode> nodes = {curve.nodes.front()};
+  for (std::size_t i = 0; i + 1 < curve.nodes.size(); ++i) append(pose, curve.nodes[i], curve.nodes[i + 1], 0, nodes);
+  curve.nodes = std::move(nodes);
+}
+
+}  // namespace screwline

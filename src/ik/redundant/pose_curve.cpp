@@ -1,0 +1,110 @@
+#include "pose_curve.h"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "screwline/spatial/rotation.h"
+#include "screwline/spatial/screw.h"
+
+namespace screwline {
+namespace {
+
+constexpr int kMaxSteps = 12;
+constexpr double kRounding = 4e-15;         // Residuals that steps would not lessen, in units of 1 and the length.
+constexpr double kLastStep = 1e-11;         // A Newton step that is shorter is the last one.
+constexpr double kGoodEnough = 1e-12;       // Where rounding of a large chain or a near singularity stops the steps.
+constexpr double kNegligiblePivot = 1e-11;  // Directions with smaller gain are left alone.
+
+/// Householder QR of J^T: null vector and least-norm steps of one factorisation.
+class Factor {
+ public:
+  explicit Factor(const Eigen::Matrix<double, 6, kRedundantJoints>& J) : qr_(J.transpose()) {
+    const auto& R = qr_.matrixQR();
+    tangent_ = Vector7::Unit(6);
+    tangent_.applyOnTheLeft(qr_.householderQ());
+    // Sign of det [J^T, tangent].
+    bool negative = qr_.colsPermutation().determinant() < 0;
+    for (int i = 0; i < 6; ++i) {
+      if (qr_.hCoeffs()[i] != 0.0) negative = !negative;
+      if (R(i, i) < 0.0) negative = !negative;
+    }
+    if (negative) tangent_ = -tangent_;
+  }
+
+  double gain() const { return std::abs(qr_.matrixQR()(5, 5)); }
+  const Vector7& tangent() const { return tangent_; }
+
+  /// J x = e, x of least norm.
+  Vector7 step(const Vector6& e) const {
+    const auto& R = qr_.matrixQR();
+    const Vector6 rhs = qr_.colsPermutation().transpose() * e;
+    Vector7 y = Vector7::Zero();
+    for (int i = 0; i < 6; ++i) {
+      double sum = rhs[i];
+      for (int k = 0; k < i; ++k) sum -= R(k, i) * y[k];
+      if (std::abs(R(i, i)) > kNegligiblePivot * std::abs(R(0, 0))) y[i] = sum / R(i, i);
+    }
+    y.applyOnTheLeft(qr_.householderQ());
+    return y;
+  }
+
+ private:
+  Eigen::ColPivHouseholderQR<Eigen::Matrix<double, kRedundantJoints, 6>> qr_;
+  Vector7 tangent_;
+};
+
+}  // namespace
+
+PoseCurve::PoseCurve(const SerialChain& chain, const Pose& target) : chain_(chain), target_(target), J_(6, 7) {
+  for (int i = 0; i < kRedundantJoints; ++i) unit_[i] = isRevolute(i) ? 1.0 : chain.characteristicLength();
+  weight_ = unit_.cwiseProduct(unit_).cwiseInverse();
+}
+
+bool PoseCurve::correct(const Vector7& q, double reach, SelfMotionNode& node) {
+  const double length = chain_.characteristicLength();
+  node.q = q;
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMaxSteps; ++i) {
+    Vector6 error = poseDifference(target_, geometricJacobian(chain_, node.q, J_));
+    error.head<3>() /= length;
+    J_.topRows<3>() /= length;
+    Eigen::Matrix<double, 6, kRedundantJoints> scaled;
+    for (int k = 0; k < kRedundantJoints; ++k) scaled.col(k) = unit_[k] * J_.col(k);
+    const Factor factor(scaled);
+    node.tangent = factor.tangent().cwiseProduct(unit_);
+    node.gain = factor.gain();
+    const double size = error.norm();
+    if (size <= kRounding || (size <= kGoodEnough && size > 0.25 * before)) return true;
+    node.q += factor.step(error).cwiseProduct(unit_);
+    if (!(norm(node.q - q) <= reach)) return false;
+    // What is left is the square of the step, and the tangent of the point before differs by the step.
+    if (size <= kLastStep * node.gain) return true;
+    before = size;
+  }
+  return before <= kGoodEnough;
+}
+
+bool PoseCurve::between(const SelfMotionNode& a, const SelfMotionNode& b, double share, SelfMotionNode& node) {
+  const double span = b.arc - a.arc;
+  if (!correct(cubicBetween(a, b, share), 0.5 * span + 1e-9, node)) return false;
+  if (dot(node.tangent, a.tangent + b.tangent) < 0.0) node.tangent = -node.tangent;
+  node.arc = a.arc + share * span;
+  return true;
+}
+
+Vector7 PoseCurve::difference(const Vector7& a, const Vector7& b) const {
+  Vector7 d = b - a;
+  for (int i = 0; i < kRedundantJoints; ++i) {
+    if (isRevolute(i)) d[i] = std::remainder(d[i], kTwoPi);
+  }
+  return d;
+}
+
+Vector7 cubicBetween(const SelfMotionNode& a, const SelfMotionNode& b, double share) {
+  const double h = b.arc - a.arc;
+  const double s = share;
+  const double r = 1.0 - share;
+  return r * r * (1.0 + 2.0 * s) * a.q + s * s * (1.0 + 2.0 * r) * b.q + h * s * r * (r * a.tangent - s * b.tangent);
+}
+
+}  // namespace screwline

@@ -1,0 +1,46 @@
+#ifndef SCREWLINE_SRC_IK_REDUNDANT_POSE_CURVE_H
+#define SCREWLINE_SRC_IK_REDUNDANT_POSE_CURVE_H
+
+#include "screwline/ik/redundant/self_motion.h"
+#include "screwline/kinematics/jacobian.h"
+
+namespace screwline {
+
+/// The configurations of seven joints that reach a pose, locally a curve: the corrector that brings a configuration
+/// onto it, and its tangent there. Prismatic joints count by the chain's length, in arc length and everywhere else.
+/// Not for several threads at once; allocates when it is made only.
+class PoseCurve {
+ public:
+  PoseCurve(const SerialChain& chain, const Pose& target);
+
+  const SerialChain& chain() const { return chain_; }
+
+  /// Newton steps of least norm until rounding is reached. False where that fails or leads further than `reach` away;
+  /// `node` is then undefined. Its tangent is oriented by the Jacobian's minors: along the curve it does not turn back,
+  /// on the other side of a crossing it does.
+  bool correct(const Vector7& q, double reach, SelfMotionNode& node);
+
+  /// Point between two nodes at share 0..1 of the way: cubic by their tangents, then corrected. Its tangent runs the
+  /// way of `a`'s.
+  bool between(const SelfMotionNode& a, const SelfMotionNode& b, double share, SelfMotionNode& node);
+
+  double dot(const Vector7& a, const Vector7& b) const { return a.cwiseProduct(weight_).dot(b); }
+  double norm(const Vector7& a) const { return std::sqrt(dot(a, a)); }
+  /// b - a, revolute joints by the nearest full turn.
+  Vector7 difference(const Vector7& a, const Vector7& b) const;
+  bool isRevolute(int joint) const { return chain_.joint(joint).isRevolute(); }
+
+ private:
+  const SerialChain& chain_;
+  Pose target_;
+  Vector7 unit_;    ///< Of each joint: 1 rad, or the chain's length.
+  Vector7 weight_;  ///< unit^-2
+  Matrix6X J_;
+};
+
+/// Cubic that has the nodes' positions and tangents. No correction.
+Vector7 cubicBetween(const SelfMotionNode& a, const SelfMotionNode& b, double share);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SRC_IK_REDUNDANT_POSE_CURVE_H

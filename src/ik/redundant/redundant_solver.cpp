@@ -1,0 +1,128 @@
+#include "screwline/ik/redundant/redundant_solver.h"
+
+#include "screwline/spatial/rotation.h"
+
+namespace screwline {
+namespace {
+
+constexpr int kLast = kRedundantJoints - 1;
+
+Pose motionOf(bool prismatic, const Vector3& direction, const Vector3& point, double value) {
+  if (prismatic) return {Matrix3::Identity(), value * direction};
+  const Matrix3 R = rotationAbout(direction, value);
+  return {R, point - R * point};
+}
+
+/// The chain with one joint rigid at `value`.
+SerialChain lockedChain(const SerialChain& chain, int joint, double value) {
+  const Axis& axis = chain.axes()[static_cast<std::size_t>(joint)];
+  const Pose X = motionOf(axis.prismatic, axis.direction, axis.point, value);
+  ChainDescription description;
+  description.name = chain.name();
+  description.base_link = chain.baseLink();
+  description.tip_link = chain.tipLink();
+  for (int i = 0; i < chain.size(); ++i) {
+    if (i == joint) continue;
+    Axis other = chain.axes()[static_cast<std::size_t>(i)];
+    if (i > joint) {
+      other.direction = (X.R * other.direction).normalized();
+      other.point = X * other.point;
+    }
+    other.source = static_cast<int>(description.joints.size());
+    description.axes.push_back(other);
+    description.joints.push_back(chain.joint(i));
+  }
+  description.home = X * chain.home();
+  description.links = {{chain.tipLink(), chain.size() - 1, description.home}};
+  return SerialChain(description);
+}
+
+/// A plan of the chain with that joint rigid; for a joint inside of the chain, at each of a few values.
+std::optional<ClosedFormPlan> planWithout(const SerialChain& chain, int joint) {
+  std::optional<ClosedFormPlan> plan = ClosedFormPlan::compile(lockedChain(chain, joint, 0.0), Task());
+  if (joint == 0 || joint == kLast) return plan;
+  for (double value : {0.7, -1.9}) {
+    if (!plan || !ClosedFormPlan::compile(lockedChain(chain, joint, value), Task())) return std::nullopt;
+  }
+  return plan;
+}
+
+}  // namespace
+
+RedundantSolver::RedundantSolver(const SerialChain& chain, int parameter, const ClosedFormPlan& plan)
+    : chain_(chain), parameter_(parameter), plan_(plan) {
+  const Axis& axis = chain.axes()[static_cast<std::size_t>(parameter)];
+  prismatic_ = axis.prismatic;
+  direction_ = axis.direction;
+  point_ = axis.point;
+  if (parameter == kLast) {
+    const Pose X_TB = chain.home().inverse();
+    direction_ = X_TB.R * direction_;
+    point_ = X_TB * point_;
+  }
+  method_ = chain.joint(parameter).name + " given, " + plan.method();
+}
+
+std::optional<RedundantSolver> RedundantSolver::compile(const SerialChain& chain) {
+  if (chain.hasMimic() || chain.size() != kRedundantJoints) return std::nullopt;
+  // A branch that more signs tell apart has simpler equations: quadratics, not a quartic.
+  std::optional<RedundantSolver> best;
+  for (int joint : {kLast, 0}) {
+    const std::optional<ClosedFormPlan> plan = planWithout(chain, joint);
+    if (plan && (!best || plan->branchParts().size() > best->plan_.branchParts().size()))
+      best = RedundantSolver(chain, joint, *plan);
+  }
+  for (int joint = 1; joint < kLast && !best; ++joint) {
+    const std::optional<ClosedFormPlan> plan = planWithout(chain, joint);
+    if (plan) best = RedundantSolver(chain, joint, *plan);
+  }
+  return best;
+}
+
+void RedundantSolver::solveAt(const Pose& target, double value, const Vector7& preferred,
+                              RedundantSolutions& solutions) const {
+  std::array<double, kMaxPlanJoints> wished{};
+  for (int i = 0, k = 0; i < kRedundantJoints; ++i) {
+    if (i != parameter_) wished[static_cast<std::size_t>(k++)] = preferred[i];
+  }
+  PlanSolutions found;
+  if (parameter_ == 0) {
+    plan_.solve(motionOf(prismatic_, direction_, point_, -value) * target, wished.data(), found);
+  } else if (parameter_ == kLast) {
+    plan_.solve(target * motionOf(prismatic_, direction_, point_, -value), wished.data(), found);
+  } else if (const std::optional<ClosedFormPlan> plan =
+                 ClosedFormPlan::compile(lockedChain(chain_, parameter_, value), Task())) {
+    plan->solve(target, wished.data(), found);
+  }
+  solutions.count = 0;
+  const unsigned below = (1U << parameter_) - 1U;
+  for (const PlanSolution& plan_solution : found) {
+    RedundantSolution& solution = solutions.solutions[static_cast<std::size_t>(solutions.count++)];
+    for (int i = 0, k = 0; i < kRedundantJoints; ++i)
+      solution.q[i] = i == parameter_ ? value : plan_solution.q[static_cast<std::size_t>(k++)];
+    solution.free = (plan_solution.free & below) | ((plan_solution.free & ~below) << 1U);
+    solution.sign = plan_solution.sign;
+    solution.rank = plan_solution.rank;
+  }
+}
+
+namespace {
+
+PlanSolution tagsOf(const RedundantSolution& solution) {
+  PlanSolution tags;
+  tags.sign = solution.sign;
+  tags.rank = solution.rank;
+  return tags;
+}
+
+}  // namespace
+
+std::string RedundantSolver::branchName(const RedundantSolution& solution) const {
+  return plan_.branchName(tagsOf(solution));
+}
+
+bool RedundantSolver::isDouble(const RedundantSolution& solution) const {
+  return plan_.isDouble(tagsOf(solution));
+}
+
+}  // namespace screwline

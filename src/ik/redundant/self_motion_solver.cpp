@@ -1,0 +1,176 @@
+#include "screwline/ik/redundant/self_motion_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "component_finder.h"
+#include "curve_cut.h"
+#include "curve_optimum.h"
+#include "curve_tracer.h"
+#include "question_seed.h"
+#include "reach_margin.h"
+#include "screwline/ik/numerical/numerical_solver.h"
+#include "screwline/kinematics/singularity.h"
+
+namespace screwline {
+namespace {
+
+constexpr int kStarts = 96;        // Descents for a chain without a closed form.
+constexpr int kRescueStarts = 64;  // Descents where slices found nothing within limits.
+constexpr double kNear = 1e-6;     // [rad, lengths] A search's result is this near to the solution set at most.
+
+std::vector<VectorX> searched(const SerialChain& chain, const SelfMotionQuestion& question, int restarts, int count,
+                              bool honour_limits) {
+  SearchOptions options;
+  options.restarts = restarts;
+  options.max_solutions = count;
+  options.timeout = question.timeout;
+  options.descent.honour_limits = honour_limits;
+  return search(chain, Task(), question.target, {seedOf(chain, question)}, options).solutions;
+}
+
+/// Names each arc by the branch that the closed form finds half-way.
+void nameArcs(PoseCurve& pose, const RedundantSolver& solver, const Pose& target, SelfMotionCurve& curve) {
+  RedundantSolutions solutions;
+  for (SelfMotionArc& arc : curve.arcs) {
+    const int middle = (arc.first + arc.last) / 2;
+    SelfMotionNode node;
+    if (!pose.between(nodeAt(curve, middle), nodeAt(curve, middle + 1), 0.5, node)) continue;
+    solver.solveAt(target, node.q[solver.parameterJoint()], node.q, solutions);
+    double least = std::numeric_limits<double>::infinity();
+    for (const RedundantSolution& solution : solutions) {
+      const double off = pose.norm(pose.difference(solution.q, node.q));
+      if (off >= least) continue;
+      least = off;
+      arc.branch = solver.branchName(solution);
+    }
+  }
+}
+
+void conclude(const SerialChain& chain, bool closed_form, SelfMotionSet& set) {
+  const bool turns_only =
+      std::all_of(chain.joints().begin(), chain.joints().end(), [](const Joint& joint) { return joint.isRevolute(); });
+  const bool broken = turns_only && std::any_of(set.curves.begin(), set.curves.end(),
+                                                [](const SelfMotionCurve& curve) { return !curve.closed; });
+  const bool crossing =
+      std::any_of(set.curves.begin(), set.curves.end(), [](const SelfMotionCurve& curve) { return curve.crosses; });
+  if (!closed_form) {
+    set.note = "curves that no start of the numerical search met are missing";
+  } else if (!set.complete) {
+    set.note = "a slice has solutions that no curve explains";
+  } else if (broken) {
+    set.note = "a curve could not be followed to its end";
+  } else if (crossing) {
+    set.note = "curves cross: each is told as it goes straight on";
+  }
+  set.complete = set.complete && !broken;
+}
+
+bool hasInterval(const SelfMotionSet& set) {
+  return std::any_of(set.curves.begin(), set.curves.end(),
+                     [](const SelfMotionCurve& curve) { return !curve.intervals.empty(); });
+}
+
+}  // namespace
+
+SelfMotionNode nodeAt(const SelfMotionCurve& curve, int index) {
+  const int count = static_cast<int>(curve.nodes.size()) - 1;
+  if (!curve.closed || index <= count) return curve.nodes[static_cast<std::size_t>(index)];
+  const int rounds = index / count;
+  SelfMotionNode node = curve.nodes[static_cast<std::size_t>(index % count)];
+  node.q += rounds * (curve.nodes.back().q - curve.nodes.front().q);
+  node.arc += rounds * (curve.nodes.back().arc - curve.nodes.front().arc);
+  return node;
+}
+
+SelfMotionSolver::SelfMotionSolver(const SerialChain& chain)
+    : chain_(chain), closed_form_(RedundantSolver::compile(chain)) {
+  if (closed_form_) {
+    const std::optional<ReachMargin> margin = ReachMargin::compile(chain, closed_form_->parameterJoint());
+    if (margin) margin_ = std::make_shared<const ReachMargin>(*margin);
+  }
+  method_ = closed_form_ ? closed_form_->method() + ", self-motions followed along the null space"
+                         : "numerical search for starts, self-motions followed along the null space";
+}
+
+std::optional<SelfMotionSolver> SelfMotionSolver::compile(const SerialChain& chain) {
+  if (chain.size() != kRedundantJoints || chain.hasMimic()) return std::nullopt;
+  return SelfMotionSolver(chain);
+}
+
+SelfMotionSet SelfMotionSolver::trace(const SelfMotionQuestion& question) const {
+  PoseCurve pose(chain_, question.target);
+  const RedundantSolver* solver = closed_form_ ? &*closed_form_ : nullptr;
+  ComponentFinder finder(pose, solver, question.target);
+  if (question.seed.size() > 0) finder.addStart(question.seed, kNear);
+  SelfMotionSet set;
+  const auto finish = [&](std::size_t from) {
+    for (std::size_t i = from; i < finder.curves().size(); ++i) {
+      SelfMotionCurve& curve = finder.curves()[i];
+      splitAtExtrema(pose, curve);
+      question.ignore_limits ? keepWhole(curve) : cutByLimits(pose, curve);
+      splitAtFolds(curve, parameterJoint());
+      if (solver != nullptr) nameArcs(pose, *solver, question.target, curve);
+    }
+  };
+  if (solver != nullptr) {
+    finder.addGrid();
+    if (margin_) finder.addExtrema(*margin_);
+    finder.finishSheets();
+  } else {
+    for (const VectorX& q : searched(chain_, question, kStarts, 0, false)) finder.addStart(q, kNear);
+  }
+  finish(0);
+  set.curves = finder.curves();
+  set.sheets = finder.sheets();
+  const bool found = question.ignore_limits ? !set.curves.empty() : hasInterval(set);
+  if (!found && set.sheets.empty()) {
+    // A curve too small for the slices, it may be.
+    const std::size_t before = finder.curves().size();
+    for (const VectorX& q : searched(chain_, question, kRescueStarts, 1, !question.ignore_limits)) {
+      if (finder.addStart(q, kNear) || solver == nullptr) continue;
+      finder.addValue(q[solver->parameterJoint()]);
+      finder.finishSheets();
+    }
+    finish(before);
+    set.curves = finder.curves();
+    set.sheets = finder.sheets();
+  }
+  set.complete = solver != nullptr && finder.unexplained() == 0;
+  conclude(chain_, solver != nullptr, set);
+  return set;
+}
+
+VectorX SelfMotionSolver::bestMember(const SelfMotionQuestion& question, const SelfMotionCurve& curve,
+                                     const SelfMotionInterval& interval, SelfMotionGoal goal) const {
+  PoseCurve pose(chain_, question.target);
+  const Vector7 seed = seedOf(chain_, question);
+  if (goal == SelfMotionGoal::kNearestToSeed) {
+    const SelfMotionNode node = nearestNode(pose, curve, interval, seed, question.ignore_limits);
+    return turnedTo(chain_, node.q, seed, question.ignore_limits);
+  }
+  Matrix6X J(6, kRedundantJoints);
+  const auto limits = [&](const Vector7& q) {
+    const Vector7 turned = turnedTo(chain_, q, seed, false);
+    double least = 1.0;
+    for (int i = 0; i < kRedundantJoints; ++i) {
+      const JointLimits& limit = chain_.joint(i).limits;
+      const double half = 0.5 * (limit.upper - limit.lower);
+      if (std::isfinite(half) && half > 0.0)
+        least = std::min(least, std::min(turned[i] - limit.lower, limit.upper - turned[i]) / half);
+    }
+    return least;
+  };
+  const auto singular = [&](const Vector7& q) {
+    geometricJacobian(chain_, q, J);
+    const VectorX values = singularValues(J);
+    return goal == SelfMotionGoal::kMostManipulable ? values.prod() : values.minCoeff();
+  };
+  const SelfMotionNode node = goal == SelfMotionGoal::kFarthestFromLimits
+                                  ? largestNode(pose, curve, interval, limits)
+                                  : largestNode(pose, curve, interval, singular);
+  return turnedTo(chain_, node.q, seed, question.ignore_limits);
+}
+
+}  // namespace screwline
