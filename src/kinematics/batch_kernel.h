@@ -58,7 +58,7 @@ class LaneSweep {
   /// Trans(p) Rx(alpha) Rz(offset + value), see AxisKernel; a prismatic axis is not yet displaced by its value.
   [[gnu::always_inline]] void step(const AxisKernel& axis, const Real& value) {
     combine(axis.p.data(), X_.p);
-    if (axis.sin_alpha != 0.0) turn(axis.cos_alpha, axis.sin_alpha, X_.y, X_.z);
+    if (axis.sin_alpha != 0.0 || axis.cos_alpha != 1.0) turn(axis.cos_alpha, axis.sin_alpha, X_.y, X_.z);
     Real angle;
     broadcast(axis.offset, angle);
     if (!axis.prismatic) angle += value;
