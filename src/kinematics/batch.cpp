@@ -50,7 +50,7 @@ Sweep sweepFor(int) {
 bool forwardBatch(const SerialChain& chain, const ForwardBatch& batch, const BatchOptions& options) {
   const Sweep sweep = sweepFor(options.lanes == 0 ? 8 : options.lanes);
   const auto work = [&](std::size_t first, std::size_t last) { sweep(chain, batch, first, last); };
-  return forPieces({batch.count, kRowsOfPiece, kLeastPieces, options.threads, options.cancelled}, std::cref(work));
+  return forPieces({batch.count, kRowsOfPiece, kLeastPieces, options.threads}, options.cancelled, std::cref(work));
 }
 
 }  // namespace screwline

@@ -10,6 +10,7 @@
 namespace screwline {
 namespace {
 
+using Stop = std::function<bool()>;
 using Work = std::function<void(std::size_t, std::size_t)>;
 
 /// Hands out pieces, in order, until there are none or one of the threads had to stop.
@@ -20,7 +21,7 @@ class Dispenser {
   bool stopped() const { return stopped_; }
 
   /// Works until nothing is left.
-  void take(const std::function<bool()>& stop) {
+  void take(const Stop& stop) {
     while (!stopped_) {
       const std::size_t first = next_.fetch_add(pieces_.rows);
       if (first >= pieces_.count) return;
@@ -33,7 +34,7 @@ class Dispenser {
   }
 
   /// The same, keeping what is thrown.
-  void take(const std::function<bool()>& stop, std::exception_ptr& error) {
+  void take(const Stop& stop, std::exception_ptr& error) {
     try {
       take(stop);
     } catch (...) {
@@ -58,11 +59,11 @@ std::size_t helpersFor(const RowPieces& pieces) {
 
 }  // namespace
 
-bool forPieces(const RowPieces& pieces, const Work& work) {
+bool forPieces(const RowPieces& pieces, const Stop& stop, const Work& work) {
   Dispenser dispenser(pieces, work);
   const std::size_t helper_count = helpersFor(pieces);
   if (helper_count == 0) {
-    dispenser.take(pieces.stop);
+    dispenser.take(stop);
     return !dispenser.stopped();
   }
   std::vector<std::exception_ptr> errors(helper_count + 1);
@@ -76,7 +77,7 @@ bool forPieces(const RowPieces& pieces, const Work& work) {
   } catch (const std::system_error&) {
     // The system has no more threads: those that run suffice.
   }
-  dispenser.take(pieces.stop, errors.back());
+  dispenser.take(stop, errors.back());
   for (std::thread& helper : helpers) helper.join();
   for (const std::exception_ptr& error : errors)
     if (error) std::rethrow_exception(error);
