@@ -13,8 +13,8 @@ import rospy
 import yaml
 from geometry_msgs.msg import Pose
 from screwline.msg import ErrorCode
-from screwline.srv import (AnalyzeSingularity, ComputeFK, ComputeIK, ComputeJacobian, ComputeStatics, ComputeVelocity,
-                           Describe)
+from screwline.srv import (AnalyzeSingularity, ComputeFK, ComputeFKBatch, ComputeIK, ComputeIKBatch, ComputeJacobian,
+                           ComputeStatics, ComputeVelocity, Describe)
 from sensor_msgs.msg import JointState
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -22,7 +22,9 @@ GOLDEN = os.path.join(ROOT, 'test', 'data', 'golden')
 SERVICES = {
     'describe': Describe,
     'compute_fk': ComputeFK,
+    'compute_fk_batch': ComputeFKBatch,
     'compute_ik': ComputeIK,
+    'compute_ik_batch': ComputeIKBatch,
     'compute_jacobian': ComputeJacobian,
     'analyze_singularity': AnalyzeSingularity,
     'compute_statics': ComputeStatics,

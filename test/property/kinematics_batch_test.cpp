@@ -234,7 +234,7 @@ TEST(RowPieces, EachPieceOnce) {
   for (int threads = 0; threads <= 5; ++threads) {
     for (const std::size_t count : {0U, 1U, 7U, 8U, 1001U}) {
       std::vector<std::atomic<int>> seen(count);
-      EXPECT_TRUE(forPieces({count, 8, 1, threads, {}}, [&seen](std::size_t first, std::size_t last) {
+      EXPECT_TRUE(forPieces({count, 8, 1, threads}, {}, [&seen](std::size_t first, std::size_t last) {
         EXPECT_LE(last - first, 8U);
         for (std::size_t i = first; i < last; ++i) ++seen[i];
       }));
@@ -248,7 +248,7 @@ TEST(RowPieces, AnExceptionReachesTheCaller) {
     const auto fail = [](std::size_t first, std::size_t) {
       if (first == 40) throw std::runtime_error("row 40");
     };
-    EXPECT_THROW(forPieces({1000, 8, 1, threads, {}}, fail), std::runtime_error);
+    EXPECT_THROW(forPieces({1000, 8, 1, threads}, {}, fail), std::runtime_error);
   }
 }
 
