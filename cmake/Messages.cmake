@@ -11,7 +11,9 @@ add_message_files(FILES
 add_service_files(FILES
   AnalyzeSingularity.srv
   ComputeFK.srv
+  ComputeFKBatch.srv
   ComputeIK.srv
+  ComputeIKBatch.srv
   ComputeJacobian.srv
   ComputeStatics.srv
   ComputeVelocity.srv

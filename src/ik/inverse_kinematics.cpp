@@ -170,8 +170,9 @@ std::string InverseKinematics::Implementation::account(const IkRequest& request,
       }
       return "no solution on branch '" + request.branch + "'" + incomplete;
     case IkStatus::kUnreachable:
-      return "proved unreachable: no joint values reach the pose; nearest reachable at distance " +
-             std::to_string(result.distance_to_reachable);
+      return "proved unreachable: no joint values reach the pose" +
+             (request.find_closest ? "; nearest reachable at distance " + std::to_string(result.distance_to_reachable)
+                                   : std::string());
     case IkStatus::kNotFound:
       break;
   }
@@ -191,6 +192,7 @@ void InverseKinematics::Implementation::conclude(const IkRequest& request, const
     result.status = IkStatus::kSolved;
     return;
   }
+  if (!request.find_closest) return;
   SearchOptions options;
   options.descent.honour_limits = !request.ignore_limits;
   options.descent.rotation_weight = request.rotation_weight;

@@ -108,5 +108,10 @@ Task toTask(const std::vector<std::string>& names, const Task& otherwise) {
   return names.empty() ? otherwise : Task::parse(names);
 }
 
+void requireMeaning(const Task& task) {
+  if (task.rotationCount() != 2) return;
+  throw InputError(AnswerCode::kInvalidGoal, "task has 2 of rx ry rz, it must have one of them, all three or none");
+}
+
 }  // namespace ros_bridge
 }  // namespace screwline

@@ -50,12 +50,6 @@ double nonNegative(double value, const std::string& field) {
   return value;
 }
 
-/// Two rotation rows fix neither an orientation nor a heading.
-void requireMeaning(const Task& task) {
-  if (task.rotationCount() != 2) return;
-  throw InputError(AnswerCode::kInvalidGoal, "task has 2 of rx ry rz, it must have one of them, all three or none");
-}
-
 AnswerCode codeOf(const IkResult& result) {
   if (result.status == IkStatus::kSolved) return AnswerCode::kSuccess;
   return result.timed_out && result.status == IkStatus::kNotFound ? AnswerCode::kTimedOut : AnswerCode::kNoIkSolution;

@@ -35,6 +35,8 @@ KinematicsServer::KinematicsServer(ServedRobot robot, const KinematicsParams& pa
       factors_(kMostSolvers) {}
 
 void KinematicsServer::advertise(ros::NodeHandle& private_node) {
+  ros::NodeHandle batch_node(private_node);
+  batch_node.setCallbackQueue(&batch_queue_);
   services_ = {
       offer<Describe>(private_node, kDescribeService, *this, &KinematicsServer::describe),
       offer<ComputeFK>(private_node, kComputeFkService, *this, &KinematicsServer::computeFk),
@@ -43,7 +45,11 @@ void KinematicsServer::advertise(ros::NodeHandle& private_node) {
       offer<AnalyzeSingularity>(private_node, kAnalyzeSingularityService, *this, &KinematicsServer::analyze),
       offer<ComputeStatics>(private_node, kComputeStaticsService, *this, &KinematicsServer::computeStatics),
       offer<ComputeVelocity>(private_node, kComputeVelocityService, *this, &KinematicsServer::computeVelocity),
+      offer<ComputeFKBatch>(batch_node, kComputeFkBatchService, *this, &KinematicsServer::computeFkBatch),
+      offer<ComputeIKBatch>(batch_node, kComputeIkBatchService, *this, &KinematicsServer::computeIkBatch),
   };
+  batch_spinner_.emplace(static_cast<unsigned>(params_.threads), &batch_queue_);
+  batch_spinner_->start();
 }
 
 const Link& KinematicsServer::linkOf(const std::string& name, const std::string& field) const {

@@ -5,8 +5,8 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 from geometry_msgs.msg import Pose
 from node_support import ServedNode
-from screwline.srv import (AnalyzeSingularity, ComputeFK, ComputeIK, ComputeJacobian, ComputeStatics, ComputeVelocity,
-                           Describe)
+from screwline.srv import (AnalyzeSingularity, ComputeFK, ComputeFKBatch, ComputeIK, ComputeIKBatch, ComputeJacobian,
+                           ComputeStatics, ComputeVelocity, Describe)
 from sensor_msgs.msg import JointState
 
 
@@ -15,7 +15,9 @@ class Server(ServedNode):
     SERVICES = {
         'describe': Describe,
         'compute_fk': ComputeFK,
+        'compute_fk_batch': ComputeFKBatch,
         'compute_ik': ComputeIK,
+        'compute_ik_batch': ComputeIKBatch,
         'compute_jacobian': ComputeJacobian,
         'analyze_singularity': AnalyzeSingularity,
         'compute_statics': ComputeStatics,

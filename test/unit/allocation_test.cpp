@@ -8,6 +8,7 @@
 
 #include "ik_arms.h"
 #include "screwline/ik/closed_form/plan.h"
+#include "screwline/kinematics/batch.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/trajectory/state_to_state.h"
 
@@ -47,6 +48,17 @@ TEST_P(Allocation, ForwardKinematicsAllocatesNothing) {
 TEST_P(Allocation, GeometricJacobianAllocatesNothing) {
   Matrix6X J(6, arm_.chain.size());
   EXPECT_EQ(allocationsOf([&] { geometricJacobian(arm_.chain, q_, J); }), 0);
+}
+
+TEST_P(Allocation, ABatchOnOneThreadAllocatesNothing) {
+  const std::size_t n = static_cast<std::size_t>(arm_.chain.size());
+  std::vector<double> q(2500 * n, 0.3);
+  std::vector<double> poses(2500 * 7);
+  std::vector<double> jacobians(2500 * 6 * n);
+  EXPECT_EQ(allocationsOf([&] {
+              forwardBatch(arm_.chain, {q.data(), 2500, poses.data(), nullptr, jacobians.data()});
+            }),
+            0);
 }
 
 TEST_P(Allocation, ClosedFormAllocatesNothing) {

@@ -21,6 +21,7 @@ struct IkRequest {
   std::vector<double> redundancy;  ///< Fixed redundancy parameters of a redundant chain; empty: chosen.
   double timeout = 0.1;            ///< [s] for what is searched numerically.
   double rotation_weight = 1.0;    ///< [m/rad] how rotation counts beside translation in distance_to_reachable.
+  bool find_closest = true;  ///< Search the best reachable configuration where there is no solution (milliseconds).
 };
 
 /// One solution. See IkSolution.msg.
@@ -56,7 +57,7 @@ struct IkResult {
   int outside_limits = 0;           ///< Solutions that exist but break limits.
   int left_out = 0;                 ///< Solutions beyond max_solutions: the list is cut, and not complete.
   bool timed_out = false;
-  IkAnswer closest;                    ///< Best reachable configuration where there is no solution.
+  IkAnswer closest;                    ///< Best reachable configuration where there is no solution, if asked for.
   double distance_to_reachable = 0.0;  ///< sqrt(position_error^2 + (rotation_weight orientation_error)^2) of `closest`.
   std::string message;                 ///< One line, for people.
 };

@@ -51,6 +51,9 @@ std::vector<double> rowMajor(const Eigen::Ref<const MatrixX>& matrix);
 /// Rows named by a request; none: `otherwise`. @throws InputError (kInvalidGoal): unknown or repeated rows.
 Task toTask(const std::vector<std::string>& names, const Task& otherwise);
 
+/// Two rotation rows fix neither an orientation nor a heading. @throws InputError (kInvalidGoal)
+void requireMeaning(const Task& task);
+
 }  // namespace ros_bridge
 }  // namespace screwline
 

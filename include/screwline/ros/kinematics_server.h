@@ -1,8 +1,11 @@
 #ifndef SCREWLINE_ROS_KINEMATICS_SERVER_H
 #define SCREWLINE_ROS_KINEMATICS_SERVER_H
 
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +29,8 @@ class KinematicsServer {
  public:
   KinematicsServer(ServedRobot robot, const KinematicsParams& params, FrameLookup lookup);
 
-  /// Offers the services in a private namespace for as long as this lives.
+  /// Offers the services in a private namespace for as long as this lives. Batches have threads of their own: a long
+  /// one keeps no other question waiting.
   void advertise(ros::NodeHandle& private_node);
 
   Outcome describe(const Describe::Request& request, Describe::Response& response) const;
@@ -36,6 +40,8 @@ class KinematicsServer {
   Outcome analyze(const AnalyzeSingularity::Request& request, AnalyzeSingularity::Response& response) const;
   Outcome computeStatics(const ComputeStatics::Request& request, ComputeStatics::Response& response) const;
   Outcome computeVelocity(const ComputeVelocity::Request& request, ComputeVelocity::Response& response) const;
+  Outcome computeFkBatch(const ComputeFKBatch::Request& request, ComputeFKBatch::Response& response) const;
+  Outcome computeIkBatch(const ComputeIKBatch::Request& request, ComputeIKBatch::Response& response) const;
 
  private:
   using SolverKey = std::pair<std::string, std::vector<int>>;  ///< Tip link, task rows.
@@ -45,6 +51,9 @@ class KinematicsServer {
   /// The same; empty: the tip.
   const Link& linkOrTip(const std::string& name, const std::string& field) const;
   std::shared_ptr<const InverseKinematics> solverFor(const Link& tip, const Task& task) const;
+  /// N of a request's N x columns numbers. @throws InputError (`code`; kTooLarge beyond ~max_batch)
+  std::size_t batchRows(std::size_t numbers, int columns, const std::string& field, AnswerCode code) const;
+  std::vector<Pose> batchTargets(const std::vector<double>& poses) const;
   IkRequest ikRequest(const ComputeIK::Request& request, const Task& task) const;
 
   ServedRobot robot_;
@@ -52,7 +61,9 @@ class KinematicsServer {
   FrameResolver frames_;
   mutable BoundedCache<SolverKey, InverseKinematics> solvers_;
   mutable BoundedCache<std::vector<int>, std::vector<SingularityFactor>> factors_;
-  std::vector<ros::ServiceServer> services_;
+  ros::CallbackQueue batch_queue_;
+  std::optional<ros::AsyncSpinner> batch_spinner_;
+  std::vector<ros::ServiceServer> services_;  // Last: withdrawn before the queue and its threads end.
 };
 
 }  // namespace ros_bridge

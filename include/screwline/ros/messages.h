@@ -4,7 +4,9 @@
 // The generated messages live in namespace screwline, as the core does; no type of the core has the name of a message.
 #include <screwline/AnalyzeSingularity.h>
 #include <screwline/ComputeFK.h>
+#include <screwline/ComputeFKBatch.h>
 #include <screwline/ComputeIK.h>
+#include <screwline/ComputeIKBatch.h>
 #include <screwline/ComputeJacobian.h>
 #include <screwline/ComputeStatics.h>
 #include <screwline/ComputeVelocity.h>

@@ -14,6 +14,8 @@ constexpr char kComputeJacobianService[] = "compute_jacobian";
 constexpr char kAnalyzeSingularityService[] = "analyze_singularity";
 constexpr char kComputeStaticsService[] = "compute_statics";
 constexpr char kComputeVelocityService[] = "compute_velocity";
+constexpr char kComputeFkBatchService[] = "compute_fk_batch";
+constexpr char kComputeIkBatchService[] = "compute_ik_batch";
 
 // Parameters found by searching upward, and what lies beside the first of them.
 constexpr char kRobotDescriptionParam[] = "robot_description";
@@ -27,6 +29,7 @@ constexpr char kTaskParam[] = "task";
 constexpr char kIkTimeoutParam[] = "ik_timeout";
 constexpr char kThreadsParam[] = "threads";
 constexpr char kMaxBatchParam[] = "max_batch";
+constexpr char kBatchTimeoutParam[] = "batch_timeout";
 constexpr char kMaxJointsParam[] = "max_joints";
 constexpr char kRotationWeightParam[] = "rotation_weight";
 

@@ -25,6 +25,7 @@ struct KinematicsParams {
   double ik_timeout = 0.1;       ///< [s] for what inverse kinematics searches numerically.
   int threads = 0;               ///< That answer requests; 0: as many as cores.
   int max_batch = 1000000;       ///< Rows of a batch request.
+  double batch_timeout = 600.0;  ///< [s] for all of a batch of inverse kinematics.
   double rotation_weight = 1.0;  ///< [m/rad] how rotation counts beside translation in one distance.
 };
 
