@@ -140,8 +140,8 @@ class Batches(unittest.TestCase):
             answers = [server.ask('compute_ik_batch', poses=poses) for server in (one, two)]
             self.assertEqual(*answers)
         finally:
-            one.stop()
-            two.stop()
+            one.shut_down()
+            two.shut_down()
 
 
 class Together(unittest.TestCase):
@@ -176,7 +176,7 @@ class BadRequests(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.server.shut_down()
-        cls.planar.stop()
+        cls.planar.shut_down()
 
     def refused(self, service, code, *words, server=None, **fields):
         answer = getattr(server or self.server, service)(**fields)
