@@ -66,17 +66,24 @@ void checkBranch(const std::string& branch, const std::vector<std::string>& know
 }  // namespace
 
 void checkRequest(const SerialChain& chain, const Task& task, const IkRequest& request,
-                  const std::vector<std::string>& branches) {
+                  const std::vector<std::string>& branches, int parameter_joint) {
   if (request.seed.size() > 0) requireConfiguration(chain, request.seed, "seed.position");
   checkTarget(chain, task, request.target);
   checkBranch(request.branch, branches);
   requireAtLeast(request.max_solutions, 0.0, false, "max_solutions");
   requireAtLeast(request.timeout, 0.0, true, "timeout");
   requireAtLeast(request.rotation_weight, 0.0, true, "rotation_weight");
-  const int freedom = std::max(0, chain.size() - task.size());
-  if (!request.redundancy.empty()) {
-    refuse("redundancy has " + std::to_string(request.redundancy.size()) +
-           " values; this chain's method takes none (its degree of redundancy is " + std::to_string(freedom) + ")");
+  const std::size_t taken = parameter_joint >= 0 ? 1 : 0;
+  if (!request.redundancy.empty() && request.redundancy.size() != taken) {
+    refuse("redundancy has " + std::to_string(request.redundancy.size()) + " values; this chain's method takes " +
+           (taken == 0
+                ? "none (its degree of redundancy is " + std::to_string(std::max(0, chain.size() - task.size())) + ")"
+                : "one, the value of joint '" + chain.joint(parameter_joint).name + "'"));
+  }
+  for (double value : request.redundancy) {
+    if (!std::isfinite(value) || std::abs(value) > kMaxMagnitude)
+      refuse("redundancy[0] is " + text(value) + ", it must be finite and at most " + text(kMaxMagnitude) +
+             " in magnitude");
   }
 }
 

@@ -6,8 +6,10 @@
 #include "ik_request_check.h"
 #include "plan_candidates.h"
 #include "screwline/exception.h"
+#include "screwline/ik/algebraic/algebraic_solver.h"
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/kinematics/singularity.h"
+#include "self_motion_answers.h"
 #include "solution_builder.h"
 #include "turns.h"
 
@@ -20,6 +22,13 @@ bool isNearer(const IkAnswer& a, const IkAnswer& b) {
   if (a.distance != b.distance) return a.distance < b.distance;
   return std::lexicographical_compare(a.position.data(), a.position.data() + a.position.size(), b.position.data(),
                                       b.position.data() + b.position.size());
+}
+
+/// A candidate that has no branch and is not known to be of a continuum.
+Candidate searched(const VectorX& q) {
+  Candidate candidate;
+  candidate.q = q;
+  return candidate;
 }
 
 /// A redundant chain's solution lies on its self-motion; told here to first order, its range is not traced.
@@ -48,21 +57,35 @@ struct InverseKinematics::Implementation {
     if (plan) {
       method = "closed form: " + plan->plan.method();
       if (plan->task.size() < task.size()) method += "; the other rows of the task are checked";
-    } else {
-      method = "numerical search (Levenberg-Marquardt from many starts)";
+      return;
     }
+    // Both are empty where the chain has another number of joints.
+    if (task.size() == 6) {
+      algebraic = AlgebraicSolver::compile(chain);
+      redundant = SelfMotionSolver::compile(chain);
+    }
+    method = algebraic   ? algebraic->method()
+             : redundant ? redundant->method()
+                         : "numerical search (Levenberg-Marquardt from many starts)";
   }
+
+  bool isExact() const { return plan || algebraic || (redundant && redundant->closedForm()); }
 
   std::vector<Candidate> candidates(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   void keep(const IkRequest& request, const std::vector<Candidate>& candidates, const SolutionBuilder& builder,
             IkResult& result) const;
+  void admit(const IkRequest& request, const IkAnswer& solution, const SolutionBuilder& builder,
+             IkResult& result) const;
   void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
   void conclude(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   std::string account(const IkRequest& request, const IkResult& result) const;
 
   SerialChain chain;
   Task task;
+  // At most one of these; none: searched.
   std::optional<TaskPlan> plan;
+  std::optional<AlgebraicSolver> algebraic;
+  std::optional<SelfMotionSolver> redundant;
   std::string method;
 };
 
@@ -79,6 +102,14 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
     for (Candidate& candidate : found) candidate.free.clear();
     return found;
   }
+  std::vector<Candidate> found;
+  if (algebraic) {
+    AlgebraicSolutions roots;
+    algebraic->solve(request.target, roots);
+    for (const std::array<double, 6>& q : roots) found.push_back(searched(Eigen::Map<const VectorX>(q.data(), 6)));
+    result.complete = roots.complete;
+    if (result.complete) return found;  // Else the search may add to them.
+  }
   SearchOptions options;
   options.descent.honour_limits = !request.ignore_limits;
   options.descent.rotation_weight = request.rotation_weight;
@@ -86,12 +117,7 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
   options.max_solutions = request.max_solutions;
   const SearchResult search_result = search(chain, task, request.target, {builder.seed()}, options);
   result.timed_out = search_result.timed_out;
-  std::vector<Candidate> found;
-  for (const VectorX& q : search_result.solutions) {
-    Candidate candidate;
-    candidate.q = q;
-    found.push_back(candidate);
-  }
+  for (const VectorX& q : search_result.solutions) found.push_back(searched(q));
   return found;
 }
 
@@ -101,25 +127,31 @@ void InverseKinematics::Implementation::keep(const IkRequest& request, const std
     std::optional<IkAnswer> solution = builder.build(candidate);
     if (!solution) {
       // Rows that the plan does not know reject solutions rightly; its own rows never should.
-      if (plan && plan->task.size() == task.size()) result.complete = false;
+      if (algebraic || (plan && plan->task.size() == task.size())) result.complete = false;
       continue;
     }
-    if (!solution->within_limits && !request.ignore_limits) {
-      ++result.outside_limits;
-      continue;
-    }
-    if (!request.branch.empty() && !matchesBranch(solution->branch, request.branch)) continue;
     if (chain.size() > task.size()) describeRedundancy(chain, task, *solution);
-    if (!request.all_turns) {
-      result.solutions.push_back(*solution);
-      continue;
-    }
-    for (const VectorX& q : allTurns(chain, solution->position, request.ignore_limits, kSolutionTolerance)) {
-      IkAnswer turned = *solution;
-      turned.position = q;
-      turned.distance = (q - builder.seed()).norm();
-      result.solutions.push_back(turned);
-    }
+    admit(request, *solution, builder, result);
+  }
+}
+
+/// Into the list, in every turn asked for, unless limits or the branch forbid it.
+void InverseKinematics::Implementation::admit(const IkRequest& request, const IkAnswer& solution,
+                                              const SolutionBuilder& builder, IkResult& result) const {
+  if (!solution.within_limits && !request.ignore_limits) {
+    ++result.outside_limits;
+    return;
+  }
+  if (!request.branch.empty() && !matchesBranch(solution.branch, request.branch)) return;
+  if (!request.all_turns) {
+    result.solutions.push_back(solution);
+    return;
+  }
+  for (const VectorX& q : allTurns(chain, solution.position, request.ignore_limits, kSolutionTolerance)) {
+    IkAnswer turned = solution;
+    turned.position = q;
+    turned.distance = (q - builder.seed()).norm();
+    result.solutions.push_back(turned);
   }
 }
 
@@ -155,8 +187,10 @@ std::string InverseKinematics::Implementation::account(const IkRequest& request,
   if (result.left_out > 0) {
     incomplete = "; " + std::to_string(result.left_out) + " left out by max_solutions";
   } else if (!result.complete) {
-    incomplete = plan ? "; the list may be incomplete: a continuum was met whose members had to be searched"
-                      : "; the list may be incomplete: found by numerical search";
+    incomplete = plan        ? "; the list may be incomplete: a continuum was met whose members had to be searched"
+                 : algebraic ? "; the list may be incomplete: the pose is at or near a continuum or a multiple solution"
+                 : redundant ? "; the list may be incomplete: self-motions were found by numerical search or meet"
+                             : "; the list may be incomplete: found by numerical search";
   }
   switch (result.status) {
     case IkStatus::kSolved: {
@@ -219,26 +253,38 @@ const std::string& InverseKinematics::method() const {
   return implementation_->method;
 }
 bool InverseKinematics::complete() const {
-  return implementation_->plan.has_value();
+  return implementation_->isExact();
 }
 
 std::vector<std::string> InverseKinematics::branches() const {
-  return implementation_->plan ? branchNamesOf(implementation_->plan->plan) : std::vector<std::string>();
+  const Implementation& self = *implementation_;
+  if (self.plan) return branchNamesOf(self.plan->plan);
+  const bool named = self.redundant && self.redundant->closedForm();
+  return named ? branchNamesOf(self.redundant->closedForm()->plan()) : std::vector<std::string>();
 }
 
 IkResult InverseKinematics::solve(const IkRequest& request) const {
   const Implementation& self = *implementation_;
-  checkRequest(self.chain, self.task, request, branches());
+  const int parameter = self.redundant ? self.redundant->parameterJoint() : -1;
+  checkRequest(self.chain, self.task, request, branches(), parameter);
   const SolutionBuilder builder(self.chain, self.task, request);
   IkResult result;
   result.method = self.method;
-  const std::vector<Candidate> candidates = joinEqual(self.chain, self.candidates(request, builder, result));
-  self.keep(request, candidates, builder, result);
+  bool any = false;
+  if (self.redundant) {
+    const std::vector<IkAnswer> answers = selfMotionAnswers(*self.redundant, request, builder, result);
+    for (const IkAnswer& answer : answers) self.admit(request, answer, builder, result);
+    any = !answers.empty();
+  } else {
+    const std::vector<Candidate> candidates = joinEqual(self.chain, self.candidates(request, builder, result));
+    self.keep(request, candidates, builder, result);
+    any = !candidates.empty();
+  }
   self.admitSeed(builder, result);
   const bool existed = result.outside_limits > 0 || !result.solutions.empty();
   self.conclude(request, builder, result);
   if (result.solutions.empty()) {
-    const bool other_branch = !request.branch.empty() && !candidates.empty();
+    const bool other_branch = !request.branch.empty() && any;
     result.status = existed || other_branch ? IkStatus::kOutsideLimits
                                             : (result.complete ? IkStatus::kUnreachable : IkStatus::kNotFound);
   }

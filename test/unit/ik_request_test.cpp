@@ -224,19 +224,62 @@ TEST(IkRequest, BadInputIsRefusedByName) {
   expectRefused(ik, bad, AnswerCode::kInvalidGoal, "timeout");
 }
 
-TEST(IkRequest, ChainsWithoutAClosedFormSaySo) {
+SerialChain generalArm(int joints) {
   test::ArmMaker maker(3);
   std::vector<Axis> axes;
-  for (int i = 0; i < 6; ++i) axes.push_back(maker.turn(maker.direction(), maker.vector(0.5)));
-  const SerialChain chain = maker.chain(axes, maker.pose(), maker.pose());
+  for (int i = 0; i < joints; ++i) axes.push_back(maker.turn(maker.direction(), maker.vector(0.5)));
+  return maker.chain(axes, maker.pose(), maker.pose());
+}
+
+TEST(IkRequest, SixJointsInGeneralAreSolvedCompletely) {
+  const SerialChain chain = generalArm(6);
+  const InverseKinematics ik(chain, Task());
+  EXPECT_TRUE(ik.complete());
+  IkRequest request = requestAt(chain, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
+  request.seed = VectorX::LinSpaced(6, 0.1, 0.6);
+  const IkResult result = ik.solve(request);
+  EXPECT_TRUE(result.complete) << result.message;
+  ASSERT_FALSE(result.solutions.empty());
+  EXPECT_LE(result.solutions.front().distance, 1e-9);
+  request.target.p.array() += 100.0;
+  EXPECT_EQ(ik.solve(request).status, IkStatus::kUnreachable);
+}
+
+TEST(IkRequest, ChainsWithoutAnExactMethodSaySo) {
+  const SerialChain chain = generalArm(8);
   const InverseKinematics ik(chain, Task());
   EXPECT_FALSE(ik.complete());
-  IkRequest request = requestAt(chain, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
-  request.seed = VectorX::Constant(6, 0.3);
+  IkRequest request = requestAt(chain, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8});
+  request.seed = VectorX::Constant(8, 0.3);
   const IkResult result = ik.solve(request);
   EXPECT_EQ(result.status, IkStatus::kSolved);
   EXPECT_FALSE(result.complete);
   EXPECT_NE(result.message.find("may be incomplete"), std::string::npos);
+}
+
+TEST(IkRequest, SevenJointsAreSolvedByCurvesOrAtOneValue) {
+  test::ArmMaker maker(5);
+  std::vector<Axis> axes;
+  for (int i = 0; i < 4; ++i) axes.push_back(maker.turn(maker.direction(), maker.vector(0.5)));
+  const Vector3 center(0.4, 0.3, 0.9);
+  for (int i = 0; i < 3; ++i) axes.push_back(maker.turn(maker.direction(), center));
+  const SerialChain chain = maker.chain(axes, maker.pose(), maker.pose());
+  const InverseKinematics ik(chain, Task());
+  EXPECT_TRUE(ik.complete());
+  IkRequest request = requestAt(chain, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7});
+  const VectorX q = VectorX::LinSpaced(7, 0.1, 0.7);
+  request.seed = q;
+  const IkResult curves = ik.solve(request);
+  ASSERT_FALSE(curves.solutions.empty()) << curves.message;
+  EXPECT_LE(curves.solutions.front().distance, 1e-9);
+  EXPECT_EQ(curves.solutions.front().self_motion.rows(), 1);
+  request.redundancy = {q[0]};
+  const IkResult points = ik.solve(request);
+  ASSERT_FALSE(points.solutions.empty()) << points.message;
+  EXPECT_LE(points.solutions.front().distance, 1e-9);
+  EXPECT_TRUE(points.complete);
+  request.redundancy = {0.1, 0.2};
+  EXPECT_THROW(ik.solve(request), InputError);
 }
 
 }  // namespace
