@@ -48,7 +48,7 @@ def best_solution(pose):
     print('%s, %s:' % (answer.message, 'complete' if answer.complete else 'there may be more'))
     for solution in answer.solutions:
         print('  %s  %s' % (numbers(solution.position), solution.branch))
-    return max(answer.solutions, key=lambda solution: solution.manipulability)
+    return max(answer.solutions, key=lambda solution: round(solution.manipulability, 9))  # of equals the nearest
 
 
 def explain(joints):
