@@ -292,10 +292,10 @@ const std::vector<std::string>& names() {
   return all;
 }
 
-const File& load(std::string name) {
+const File* load(const std::string& name) {
   static std::map<std::string, std::unique_ptr<File>> files;
   std::unique_ptr<File>& file = files[name];
-  if (file) return *file;
+  if (file) return file.get();
   const YAML::Node root = YAML::LoadFile(SCREWLINE_TEST_DATA "/golden/" + name + ".yaml");
   const YAML::Node model = root["model"];
   const std::map<std::string, double> parameters = numbersOf(model["parameters"]);
@@ -305,7 +305,7 @@ const File& load(std::string name) {
   for (const YAML::Node& node : root["unreachable_poses"]) {
     file->unreachable.push_back({node["reason"].as<std::string>(), poseOf(node["pose"])});
   }
-  return *file;
+  return file.get();
 }
 
 }  // namespace golden

@@ -82,7 +82,7 @@ struct File {
 const std::vector<std::string>& names();
 
 /// Reads one; kept for later calls. @throws std::runtime_error where it is not as expected.
-const File& load(std::string name);
+const File* load(const std::string& name);
 
 /// Value of an expression such as "-pi/2", "L1 + L2", "2*(l1 - l2)**2" or "sqrt(3)/2".
 /// @throws std::runtime_error for what it cannot read.

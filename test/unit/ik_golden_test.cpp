@@ -37,7 +37,7 @@ bool isMember(const SerialChain& chain, const golden::IkFamily& family, const Ve
 
 class IkGolden : public testing::TestWithParam<std::string> {
  protected:
-  const golden::File& file_ = golden::load(GetParam());
+  const golden::File& file_ = *golden::load(GetParam());
 
   IkResult solve(const golden::Case& c, const Task& task) const {
     IkRequest request;
@@ -123,7 +123,7 @@ TEST_P(IkGolden, FullPoseTellsWhichSolutionsMatchTheOrientation) {
 
 /// The checker itself fails on a set with a wrong solution.
 TEST(IkGoldenChecker, SeesAWrongSolution) {
-  const golden::File& file = golden::load(golden::names().front());
+  const golden::File& file = *golden::load(golden::names().front());
   VectorX wrong = file.cases.front().ik.solutions.front().q;
   wrong[wrong.size() - 1] += 1e-6;
   EXPECT_GT(difference(file.chain, wrong, file.cases.front().ik.solutions.front().q), kTolerance);

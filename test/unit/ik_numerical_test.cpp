@@ -62,7 +62,7 @@ TEST(IkNumerical, FindsTheGoldenSolutions) {
   int cases = 0;
   int solutions = 0;
   for (const std::string& name : golden::names()) {
-    const golden::File& file = golden::load(name);
+    const golden::File& file = *golden::load(name);
     int sample = 0;
     for (const golden::Case& test : file.cases) {
       if (test.singular || test.ik.infinite || ++sample > 3) continue;
@@ -158,7 +158,7 @@ TEST(IkNumerical, PolishStaysOnItsBranch) {
 }
 
 TEST(IkNumerical, PolishOfASingularSolution) {
-  const golden::File& file = golden::load("seed004_01_rrprrr");
+  const golden::File& file = *golden::load("seed004_01_rrprrr");
   for (const golden::Case& test : file.cases) {
     VectorX q = test.q + VectorX::Constant(6, 1e-5);
     EXPECT_LT(polish(file.chain, Task(), test.pose, q).norm(), 1e-12) << test.id;
@@ -198,7 +198,7 @@ TEST(IkNumerical, SearchIsCancelled) {
 }
 
 TEST(IkNumerical, DescentIsFast) {
-  const golden::File& file = golden::load("seed004_01_rrprrr");
+  const golden::File& file = *golden::load("seed004_01_rrprrr");
   const golden::Case& test = file.cases.front();
   DescentOptions options;
   int iterations = 0;

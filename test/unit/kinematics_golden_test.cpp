@@ -54,7 +54,7 @@ class KinematicsGolden : public testing::TestWithParam<std::string> {
     }
   }
 
-  const golden::File& file_ = golden::load(GetParam());
+  const golden::File& file_ = *golden::load(GetParam());
 };
 
 TEST_P(KinematicsGolden, Pose) {

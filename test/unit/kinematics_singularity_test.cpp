@@ -28,7 +28,7 @@ struct Expected {
 class ConditionsOf : public testing::TestWithParam<Expected> {};
 
 TEST_P(ConditionsOf, AreThoseOfItsGeometry) {
-  const golden::File& file = golden::load(GetParam().file);
+  const golden::File& file = *golden::load(GetParam().file);
   for (const SerialChain* chain : {&file.chain, &file.table}) {
     std::vector<std::string> found;
     for (const SingularityFactor& factor : factorsOf(*chain, file.task)) {
@@ -91,7 +91,7 @@ TEST(Conditions, OfASixJointArmWithoutSphericalWrist) {
 }
 
 TEST(Conditions, AreWrittenInLatexToo) {
-  const golden::File& file = golden::load("seed003_03_rrr_articulated");
+  const golden::File& file = *golden::load("seed003_03_rrr_articulated");
   const std::vector<SingularityFactor> factors = factorsOf(file.chain, file.task);
   EXPECT_EQ(factors[0].latex, "\\sin(\\theta_{3}) = 0");
   EXPECT_EQ(factors[1].latex, "0.7 \\cos(\\theta_{2}) + 0.5 \\cos(\\theta_{2} + \\theta_{3}) = 0");
@@ -147,7 +147,7 @@ TEST(Rank, IsRelativeToTheLargest) {
 }
 
 TEST(Rank, OfAWristWhoseTipIsItsCentreIsZeroInPosition) {
-  const golden::File& wrist = golden::load("seed003_06_wrist");
+  const golden::File& wrist = *golden::load("seed003_06_wrist");
   // Turned so that no entry is an exact zero.
   std::vector<Axis> axes = wrist.chain.axes();
   const Pose X = {rotationAbout(Vector3(1.0, 2.0, 3.0).normalized(), 0.7), Vector3(0.3, 0.1, 0.2)};
@@ -217,7 +217,7 @@ void expectSingularAt(const SerialChain& chain, const Task& task, const Singular
 class Nearest : public testing::TestWithParam<std::string> {};
 
 TEST_P(Nearest, IsNoFartherThanARaySearchFinds) {
-  const golden::File& file = golden::load(GetParam());
+  const golden::File& file = *golden::load(GetParam());
   for (const golden::Case& c : file.cases) {
     SCOPED_TRACE(c.id);
     const SingularityAnalysis analysis = analyzeSingularity(file.chain, c.q, file.task);
@@ -248,14 +248,14 @@ TEST(NearestSingularity, OfATwoLinkArmIsStraightOrFolded) {
 }
 
 TEST(NearestSingularity, OfASlideIsWhereItIsDrawnIn) {
-  const golden::File& file = golden::load("seed001_rrp_spherical");
+  const golden::File& file = *golden::load("seed001_rrp_spherical");
   const SingularityAnalysis analysis = analyzeSingularity(file.chain, vec({0.3, 0.1, -0.2}), file.task);
   EXPECT_NEAR(analysis.distance, 0.3, 1e-12);  // rho = d3 + 0.5
   EXPECT_NEAR(analysis.nearest[2], -0.5, 1e-12);
 }
 
 TEST(NearestSingularity, OfAnArticulatedArmAgreesWithAFineSearchOfTheShoulderCurve) {
-  const golden::File& file = golden::load("seed003_03_rrr_articulated");
+  const golden::File& file = *golden::load("seed003_03_rrr_articulated");
   for (double q2 : {-1.3, -0.4, 0.5, 1.1, 2.5}) {
     for (double q3 : {-2.2, -1.0, 0.9, 1.6, 2.6}) {
       double best = std::abs(q3 - kPi * std::round(q3 / kPi));

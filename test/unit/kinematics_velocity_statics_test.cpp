@@ -135,7 +135,7 @@ TEST(Statics, SignIsOfTheToolOnTheEnvironment) {
 }
 
 TEST(Statics, OfTheOrientingRobotIsTheMomentOfTheStudy) {
-  const golden::File& file = golden::load("seed004_03_orienting_3r");
+  const golden::File& file = *golden::load("seed004_03_orienting_3r");
   VectorX q(3);
   q << 0.0, kPi / 2.0, 0.4;
   VectorX effort(3);
