@@ -23,16 +23,26 @@ Transform<T> fromPose(const Pose& X) {
   return M;
 }
 
-template <class T>
-Transform<T> operator*(const Transform<T>& A, const Transform<T>& B) {
-  Transform<T> C = A;
+/// Of factors of which one or none carries a derivative: constants cost half of what duals do.
+template <class A, class B>
+auto operator*(const Transform<A>& X, const Transform<B>& Y) {
+  Transform<decltype(A() * B())> Z;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      C.R[i][j] = A.R[i][0] * B.R[0][j] + A.R[i][1] * B.R[1][j] + A.R[i][2] * B.R[2][j];
+      Z.R[i][j] = X.R[i][0] * Y.R[0][j] + X.R[i][1] * Y.R[1][j] + X.R[i][2] * Y.R[2][j];
     }
-    C.p[i] = A.R[i][0] * B.p[0] + A.R[i][1] * B.p[1] + A.R[i][2] * B.p[2] + A.p[i];
+    Z.p[i] = X.R[i][0] * Y.p[0] + X.R[i][1] * Y.p[1] + X.R[i][2] * Y.p[2] + X.p[i];
   }
-  return C;
+  return Z;
+}
+
+Transform<double> valueOf(const Transform<Dual>& X) {
+  Transform<double> value;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) value.R[i][j] = X.R[i][j].value;
+    value.p[i] = X.p[i].value;
+  }
+  return value;
 }
 
 /// e^([S] displacement): Rodrigues' formula about the axis' point, or a translation (Lynch & Park, prop. 3.25).
@@ -62,15 +72,6 @@ Transform<T> exponential(const Axis& axis, const T& displacement) {
   return X;
 }
 
-template <class T>
-Transform<T> tipPose(const SerialChain& chain, const std::vector<T>& q) {
-  Transform<T> X = fromPose<T>(Pose());
-  for (const Axis& axis : chain.axes()) {
-    X = X * exponential<T>(axis, T(axis.multiplier) * q[static_cast<std::size_t>(axis.source)]);
-  }
-  return X * fromPose<T>(chain.home());
-}
-
 /// Twist of a pose that changes: v = dp, [w]x = dR R^T.
 Vector6 twistOf(const Transform<Dual>& X) {
   const auto spin = [&X](std::size_t i, std::size_t j) {
@@ -84,13 +85,20 @@ Vector6 twistOf(const Transform<Dual>& X) {
 }  // namespace
 
 Matrix6X differentiationJacobian(const SerialChain& chain, const ConstVectorRef& q) {
-  std::vector<Dual> variables(static_cast<std::size_t>(chain.size()));
-  for (std::size_t i = 0; i < variables.size(); ++i) variables[i] = Dual(q[static_cast<Eigen::Index>(i)]);
-  Matrix6X J(6, chain.size());
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    variables[i].slope = 1.0;
-    J.col(static_cast<Eigen::Index>(i)) = twistOf(tipPose<Dual>(chain, variables));
-    variables[i].slope = 0.0;
+  const std::vector<Axis>& axes = chain.axes();
+  std::vector<Transform<Dual>> exponentials;
+  exponentials.reserve(axes.size());
+  for (const Axis& axis : axes) {
+    exponentials.push_back(exponential(axis, Dual(axis.multiplier * q[axis.source], axis.multiplier)));
+  }
+  // What follows each axis, the tip's home included.
+  std::vector<Transform<double>> after(axes.size(), fromPose<double>(chain.home()));
+  for (std::size_t i = axes.size(); i-- > 1;) after[i - 1] = valueOf(exponentials[i]) * after[i];
+  Matrix6X J = Matrix6X::Zero(6, chain.size());
+  Transform<double> before = fromPose<double>(Pose());
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    J.col(axes[i].source) += twistOf(before * exponentials[i] * after[i]);
+    before = before * valueOf(exponentials[i]);
   }
   return J;
 }

@@ -25,6 +25,12 @@ inline Dual operator-(const Dual& a, const Dual& b) {
 inline Dual operator*(const Dual& a, const Dual& b) {
   return {a.value * b.value, a.value * b.slope + a.slope * b.value};
 }
+inline Dual operator*(const Dual& a, double b) {
+  return {a.value * b, a.slope * b};
+}
+inline Dual operator*(double a, const Dual& b) {
+  return b * a;
+}
 inline Dual sin(const Dual& a) {
   return {std::sin(a.value), std::cos(a.value) * a.slope};
 }

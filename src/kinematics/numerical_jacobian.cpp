@@ -14,7 +14,8 @@ struct PoseSlope {
   Matrix3 R;
 };
 
-PoseSlope centralDifference(const SerialChain& chain, VectorX q, Eigen::Index i, double h) {
+/// Leaves q as it was.
+PoseSlope centralDifference(const SerialChain& chain, VectorX& q, Eigen::Index i, double h) {
   const double middle = q[i];
   q[i] = middle + h;
   const double above = q[i];
@@ -22,6 +23,7 @@ PoseSlope centralDifference(const SerialChain& chain, VectorX q, Eigen::Index i,
   q[i] = middle - h;
   const double width = above - q[i];
   const Pose X_minus = forwardKinematics(chain, q);
+  q[i] = middle;
   return {(X_plus.p - X_minus.p) / width, (X_plus.R - X_minus.R) / width};
 }
 
@@ -39,11 +41,12 @@ double stepOf(const SerialChain& chain, Eigen::Index i) {
 Matrix6X numericalJacobian(const SerialChain& chain, const ConstVectorRef& q) {
   const Matrix3 R_TB = forwardKinematics(chain, q).R.transpose();
   Matrix6X J(6, chain.size());
+  VectorX shifted = q;
   for (Eigen::Index i = 0; i < chain.size(); ++i) {
     // Richardson: two widths cancel the error of order h^2.
     const double h = stepOf(chain, i);
-    const PoseSlope fine = centralDifference(chain, q, i, h);
-    const PoseSlope coarse = centralDifference(chain, q, i, 2.0 * h);
+    const PoseSlope fine = centralDifference(chain, shifted, i, h);
+    const PoseSlope coarse = centralDifference(chain, shifted, i, 2.0 * h);
     const Matrix3 spin = (4.0 * fine.R - coarse.R) / 3.0 * R_TB;
     J.col(i).head<3>() = (4.0 * fine.p - coarse.p) / 3.0;
     J.col(i).tail<3>() << spin(2, 1) - spin(1, 2), spin(0, 2) - spin(2, 0), spin(1, 0) - spin(0, 1);

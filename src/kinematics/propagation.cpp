@@ -24,10 +24,9 @@ Matrix3 tipRotation(const SerialChain& chain, const std::vector<Pose>& links) {
   return R * chain.modifiedDh().tool_transform.R;
 }
 
-std::vector<LinkVelocity> outward(const SerialChain& chain, const std::vector<Pose>& links,
-                                  const ConstVectorRef& velocity) {
-  std::vector<LinkVelocity> result;
-  result.reserve(links.size());
+void outward(const SerialChain& chain, const std::vector<Pose>& links, const ConstVectorRef& velocity,
+             std::vector<LinkVelocity>& result) {
+  result.clear();
   LinkVelocity parent;
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Axis& axis = chain.axes()[i];
@@ -40,11 +39,11 @@ std::vector<LinkVelocity> outward(const SerialChain& chain, const std::vector<Po
     result.push_back(link);
     parent = link;
   }
-  return result;
 }
 
-std::vector<LinkWrench> inward(const SerialChain& chain, const std::vector<Pose>& links, const Vector6& wrench) {
-  std::vector<LinkWrench> result(links.size());
+void inward(const SerialChain& chain, const std::vector<Pose>& links, const Vector6& wrench,
+            std::vector<LinkWrench>& result) {
+  result.resize(links.size());
   const Pose* X = &chain.modifiedDh().tool_transform;
   LinkWrench child;
   child.f = wrench.head<3>();
@@ -56,18 +55,21 @@ std::vector<LinkWrench> inward(const SerialChain& chain, const std::vector<Pose>
     child = link;
     X = &links[i];
   }
-  return result;
 }
 
 }  // namespace
 
 std::vector<LinkVelocity> propagateVelocity(const SerialChain& chain, const ConstVectorRef& q,
                                             const ConstVectorRef& velocity) {
-  return outward(chain, linkTransforms(chain, q), velocity);
+  std::vector<LinkVelocity> result;
+  outward(chain, linkTransforms(chain, q), velocity, result);
+  return result;
 }
 
 std::vector<LinkWrench> propagateForce(const SerialChain& chain, const ConstVectorRef& q, const Vector6& wrench) {
-  return inward(chain, linkTransforms(chain, q), wrench);
+  std::vector<LinkWrench> result;
+  inward(chain, linkTransforms(chain, q), wrench, result);
+  return result;
 }
 
 Vector6 tipTwist(const SerialChain& chain, const LinkVelocity& last) {
@@ -91,9 +93,12 @@ Matrix6X velocityPropagationJacobian(const SerialChain& chain, const ConstVector
   const Matrix3 R_BT = tipRotation(chain, links);
   Matrix6X J(6, chain.size());
   VectorX velocity = VectorX::Zero(chain.size());
+  std::vector<LinkVelocity> velocities;
+  velocities.reserve(links.size());
   for (int i = 0; i < chain.size(); ++i) {
     velocity[i] = 1.0;
-    const Vector6 V_T = tipTwist(chain, outward(chain, links, velocity).back());
+    outward(chain, links, velocity, velocities);
+    const Vector6 V_T = tipTwist(chain, velocities.back());
     J.col(i) << R_BT * V_T.head<3>(), R_BT * V_T.tail<3>();
     velocity[i] = 0.0;
   }
@@ -104,11 +109,13 @@ Matrix6X forcePropagationJacobian(const SerialChain& chain, const ConstVectorRef
   const std::vector<Pose> links = linkTransforms(chain, q);
   const Matrix3 R_TB = tipRotation(chain, links).transpose();
   Matrix6X J(6, chain.size());
+  std::vector<LinkWrench> wrenches;
   for (int row = 0; row < 6; ++row) {
     const Vector6 F_B = Vector6::Unit(row);
     Vector6 F_T;
     F_T << R_TB * F_B.head<3>(), R_TB * F_B.tail<3>();
-    J.row(row) = effortsOf(chain, inward(chain, links, F_T)).transpose();
+    inward(chain, links, F_T, wrenches);
+    J.row(row) = effortsOf(chain, wrenches).transpose();
   }
   return J;
 }
