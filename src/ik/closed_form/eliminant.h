@@ -47,6 +47,9 @@ struct CarriedPoint {
   Vector3 at(double q) const {
     return slide ? Vector3(center + q * e) : Vector3(center + std::cos(q) * e + std::sin(q) * f);
   }
+  Vector3 at(double displacement, const Turn& turn) const {
+    return slide ? Vector3(center + displacement * e) : Vector3(center + turn.c * e + turn.s * f);
+  }
   /// direction . (point - origin)
   Form along(const Vector3& direction, const Vector3& origin) const {
     return {direction.dot(center - origin), direction.dot(e), slide ? 0.0 : direction.dot(f)};

@@ -4,6 +4,7 @@
 
 #include "screwline/ik/closed_form/roots.h"
 #include "screwline/model/structure.h"
+#include "screwline/spatial/atan2.h"
 #include "screwline/spatial/rotation.h"
 
 namespace screwline {
@@ -11,6 +12,9 @@ namespace {
 
 /// Sine below which axis 3 counts as in line with axis 1.
 constexpr double kInLine = 1e-14;
+
+/// Cosine below which neighbours count as at right angles: what rounding leaves of it.
+constexpr double kAcross = 1e-15;
 
 /// Where both factors are small together (axes coming into line) their product is exact and is kept; where one passes
 /// zero alone, two solutions meet there.
@@ -22,62 +26,119 @@ double angleBetween(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+/// Half of an angle in [0, pi].
+Turn halfOf(double cosine, double sine) {
+  const double length = std::sqrt(cosine * cosine + sine * sine);
+  return cosine >= 0.0 ? normalized({length + cosine, sine}) : normalized({sine, length - cosine});
+}
+
+/// The same angle half a turn on, in [-pi, pi].
+double oppositeOf(double angle) {
+  return angle > 0.0 ? angle - kPi : angle + kPi;
+}
+
 }  // namespace
 
 std::optional<OrientationProblem> OrientationProblem::compile(const std::array<Axis, 3>& axes) {
+  for (const Axis& axis : axes) {
+    if (axis.prismatic) return std::nullopt;
+  }
+  const Vector3& h1 = axes[0].direction;
+  const Vector3& h2 = axes[1].direction;
+  const Vector3& h3 = axes[2].direction;
+  const double first = angleBetween(h1, h2);
+  const double second = angleBetween(h2, h3);
+  if (std::sin(first) <= kStructureAngleTolerance || std::sin(second) <= kStructureAngleTolerance) return std::nullopt;
   OrientationProblem problem;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (axes[i].prismatic) return std::nullopt;
-    problem.axis_[i] = axes[i].direction;
-  }
-  const auto& [h1, h2, h3] = problem.axis_;
-  problem.first_angle_ = angleBetween(h1, h2);
-  problem.second_angle_ = angleBetween(h2, h3);
-  if (std::sin(problem.first_angle_) <= kStructureAngleTolerance ||
-      std::sin(problem.second_angle_) <= kStructureAngleTolerance) {
-    return std::nullopt;
-  }
+  problem.across_ = std::abs(h1.dot(h2)) <= kAcross && std::abs(h2.dot(h3)) <= kAcross;
+  problem.first_ = problem.across_ ? Turn{0.0, 1.0} : turnBy(first);
+  problem.second_ = problem.across_ ? Turn{0.0, 1.0} : turnBy(second);
+  problem.half_sum_ = turnBy(0.5 * (first + second));
+  problem.half_difference_ = turnBy(0.5 * (first - second));
+  // Both frames have axis 2 in their xz plane, at `first` and `second` from z, when axis 3 is nearest to axis 1.
+  const Vector3 x1 = (h2 - h1 * h1.dot(h2)).normalized();
+  problem.near_ << x1, h1.cross(x1), h1;
+  const Vector3 x3 = (h2 - h3 * h3.dot(h2)).normalized();
+  problem.far_ << x3, h3.cross(x3), h3;
   // h1 . R2(q) h3 = constant + amplitude cos(q - nearest)
   const Vector3 across = h3 - h2 * h2.dot(h3);
-  problem.nearest_ = std::atan2(h1.dot(h2.cross(across)), h1.dot(across));
-  problem.x1_ = anyPerpendicular(h1);
-  problem.y1_ = h1.cross(problem.x1_);
-  problem.x3_ = anyPerpendicular(h3);
-  problem.y3_ = h3.cross(problem.x3_);
+  problem.nearest_ = normalized({h1.dot(across), h1.dot(h2.cross(across))});
   return problem;
 }
 
-void OrientationProblem::solve(const Matrix3& Q, double preferred, OrientationSolutions& solutions) const {
-  solutions.count = 0;
-  const Vector3 image = Q * axis_[2];
-  const double image_x = x1_.dot(image);
-  const double image_y = y1_.dot(image);
-  const double image_sine = std::hypot(image_x, image_y);
-  const double between = std::atan2(image_sine, axis_[0].dot(image));
-  // cos(between) = cos(first) cos(second) + sin(first) sin(second) cos(middle). Half-angle products keep the digits of
-  // a small or almost straight middle angle, which the cosine loses.
-  const double sum = first_angle_ + second_angle_;
-  const double difference = first_angle_ - second_angle_;
+/// From cos(between) = cos(first) cos(second) + sin(first) sin(second) cos(u). Half-angle products keep the digits of a
+/// small or almost straight middle angle, which the cosine loses.
+OrientationProblem::Middle OrientationProblem::middleOf(double cosine, double sine) const {
+  Middle middle;
+  const Turn half = halfOf(cosine, sine);
   const double half_sine =
-      rootOfProduct(std::sin(0.5 * (between + difference)), std::sin(0.5 * (between - difference)));
-  const double half_cosine = rootOfProduct(std::sin(0.5 * (sum + between)), std::sin(0.5 * (sum - between)));
-  if (half_sine < 0.0 || half_cosine < 0.0) return;
-  const bool in_line = image_sine <= kInLine;
-  const double middle = 2.0 * std::atan2(half_sine, half_cosine);
-  const bool one = in_line || half_sine == 0.0 || half_cosine == 0.0;
-  for (int sign : {1, -1}) {
-    if (one && sign < 0) break;
-    OrientationSolution solution;
-    solution.sign = one ? 0 : sign;
-    solution.free = in_line;
-    solution.q[1] = nearest_ + sign * middle;
-    const Matrix3 R2 = rotationAbout(axis_[1], solution.q[1]);
-    const Vector3 turned = R2 * axis_[2];
-    solution.q[0] = in_line ? preferred : std::atan2(image_y, image_x) - std::atan2(y1_.dot(turned), x1_.dot(turned));
-    const Vector3 x3 = R2.transpose() * (rotationAbout(axis_[0], -solution.q[0]) * (Q * x3_));
-    solution.q[2] = std::atan2(y3_.dot(x3), x3_.dot(x3));
-    solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solution;
+      rootOfProduct((half * half_difference_).s, half.s * half_difference_.c - half.c * half_difference_.s);
+  const double half_cosine = rootOfProduct((half_sum_ * half).s, (half_sum_ * half.inverse()).s);
+  middle.reached = half_sine >= 0.0 && half_cosine >= 0.0;
+  middle.is_double = half_sine == 0.0 || half_cosine == 0.0;
+  const Turn half_middle = normalized({half_cosine, half_sine});
+  middle.turn = half_middle * half_middle;
+  return middle;
+}
+
+void OrientationProblem::solveInFrames(const Matrix3& M, double preferred, OrientationSolutions& solutions) const {
+  solutions.count = 0;
+  const double sine = std::sqrt(M(0, 2) * M(0, 2) + M(1, 2) * M(1, 2));
+  if (across_ && sine > 1e-13) return solveAcross(M, sine, solutions);
+  const Middle middle = middleOf(M(2, 2), sine);
+  if (!middle.reached) return;
+  const bool in_line = sine <= kInLine;
+  const bool one = in_line || middle.is_double;
+  std::array<double, 6> cosines;
+  std::array<double, 6> sines;
+  std::array<double, 6> angles;
+  solutions.count = one ? 1 : 2;
+  for (int i = 0; i < solutions.count; ++i) {
+    const Turn u = i == 0 ? middle.turn : middle.turn.inverse();
+    // Axis 3, and y of the frame on it, before axis 1 turns.
+    const double image_x = first_.s * second_.c - first_.c * second_.s * u.c;
+    const double image_y = -second_.s * u.s;
+    const Turn first = in_line ? turnBy(preferred) : turnBetween(image_x, image_y, M(0, 2), M(1, 2));
+    const Turn y = first * Turn{-first_.c * u.s, u.c};
+    const double y_z = first_.s * u.s;
+    const Turn q2 = u * nearest_;
+    const auto k = static_cast<std::size_t>(3 * i);
+    cosines[k] = first.c;
+    sines[k] = first.s;
+    cosines[k + 1] = q2.c;
+    sines[k + 1] = q2.s;
+    cosines[k + 2] = y.c * M(0, 1) + y.s * M(1, 1) + y_z * M(2, 1);
+    sines[k + 2] = y.c * M(0, 0) + y.s * M(1, 0) + y_z * M(2, 0);
   }
+  atan2Many(sines.data(), cosines.data(), angles.data(), 3 * solutions.count);
+  for (int i = 0; i < solutions.count; ++i) {
+    OrientationSolution& solution = solutions.solutions[static_cast<std::size_t>(i)];
+    const auto k = static_cast<std::size_t>(3 * i);
+    solution.q = {in_line ? preferred : angles[k], angles[k + 1], angles[k + 2]};
+    solution.free = in_line;
+    solution.sign = one ? 0 : (i == 0 ? 1 : -1);
+  }
+}
+
+/// Neighbours at right angles, not in line: Euler angles z, y', z'', the second solution half a turn on in the first
+/// and the third.
+void OrientationProblem::solveAcross(const Matrix3& M, double sine, OrientationSolutions& solutions) const {
+  const double scale = 1.0 / sine;
+  const Turn first = {-scale * M(1, 2), scale * M(0, 2)};
+  const Turn middle = {M(2, 2), sine};
+  // y of the frame on axis 3, before axis 1 turns: (0, cos u, sin u).
+  const Turn y = first * Turn{0.0, middle.c};
+  const std::array<double, 4> cosines = {first.c, (middle * nearest_).c,
+                                         y.c * M(0, 1) + y.s * M(1, 1) + middle.s * M(2, 1),
+                                         (middle.inverse() * nearest_).c};
+  const std::array<double, 4> sines = {first.s, (middle * nearest_).s,
+                                       y.c * M(0, 0) + y.s * M(1, 0) + middle.s * M(2, 0),
+                                       (middle.inverse() * nearest_).s};
+  std::array<double, 4> angles;
+  atan2Many(sines.data(), cosines.data(), angles.data(), 4);
+  solutions.count = 2;
+  solutions.solutions[0] = {{angles[0], angles[1], angles[2]}, false, 1};
+  solutions.solutions[1] = {{oppositeOf(angles[0]), angles[3], oppositeOf(angles[2])}, false, -1};
 }
 
 }  // namespace screwline

@@ -14,6 +14,8 @@ void ClosedFormPlan::solve(const Pose& target, const double* preferred, PlanSolu
       solvePosition(target.p, preferred, solutions);
       break;
     case Shape::kOrientation:
+      solveOrientation(target, preferred, solutions);
+      break;
     case Shape::kWrist:
     case Shape::kShoulder:
       solveSpherical(target, preferred, solutions);
@@ -24,56 +26,81 @@ void ClosedFormPlan::solve(const Pose& target, const double* preferred, PlanSolu
   }
 }
 
-void ClosedFormPlan::solvePosition(const Vector3& goal, const double* preferred, PlanSolutions& solutions) const {
+std::array<double, 3> ClosedFormPlan::wishedOf(const double* preferred) const {
   std::array<double, 3> wished{};
   for (std::size_t i = 0; i < 3; ++i)
     wished[i] = stage_joints_[i] < 0 ? 0.0 : stage_sign_ * preferred[stage_joints_[i]];
+  return wished;
+}
+
+void ClosedFormPlan::solvePosition(const Vector3& goal, const double* preferred, PlanSolutions& solutions) const {
   PositionSolutions found;
-  position_->solve(start_, goal, wished, found);
+  position_->solve(start_, goal, wishedOf(preferred), found);
   addStage(found, solutions);
+}
+
+PlanSolution ClosedFormPlan::solutionOf(const PositionSolution& position) const {
+  PlanSolution solution;
+  solution.sign = {position.sign[0], position.sign[1], 0};
+  solution.rank = position.rank;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (stage_joints_[i] < 0) continue;
+    const auto joint = static_cast<std::size_t>(stage_joints_[i]);
+    solution.q[joint] = stage_sign_ * position.q[i];
+    if (position.free[i]) solution.free |= 1U << joint;
+  }
+  return solution;
 }
 
 void ClosedFormPlan::addStage(const PositionSolutions& found, PlanSolutions& solutions) const {
   for (const PositionSolution& position : found) {
-    PlanSolution solution;
-    solution.sign = {position.sign[0], position.sign[1], 0};
-    solution.rank = position.rank;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (stage_joints_[i] < 0) continue;
-      const auto joint = static_cast<std::size_t>(stage_joints_[i]);
-      solution.q[joint] = stage_sign_ * position.q[i];
-      if (position.free[i]) solution.free |= 1U << joint;
-    }
-    solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solution;
+    solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solutionOf(position);
   }
 }
 
-void ClosedFormPlan::solveSpherical(const Pose& target, const double* preferred, PlanSolutions& solutions) const {
-  PlanSolutions arms;
-  if (shape_ == Shape::kOrientation) {
-    arms.count = 1;
-  } else {
-    // The point where the three axes meet is moved by the other three axes only.
-    const Vector3 goal =
-        shape_ == Shape::kWrist ? target * (home_.inverse() * start_) : home_ * (target.inverse() * start_);
-    solvePosition(goal, preferred, arms);
+void ClosedFormPlan::addOrientation(const PlanSolution& arm, const OrientationSolutions& turns,
+                                    PlanSolutions& solutions) const {
+  const auto first = static_cast<std::size_t>(spherical_first_);
+  for (const OrientationSolution& turn : turns) {
+    PlanSolution& solution = solutions.solutions[static_cast<std::size_t>(solutions.count++)];
+    solution = arm;
+    for (std::size_t i = 0; i < 3; ++i) solution.q[first + i] = turn.q[i];
+    solution.sign[2] = turn.sign;
+    if (turn.free) solution.free |= 1U << first;
   }
-  const Matrix3 whole = target.R * home_.R.transpose();
-  for (const PlanSolution& arm : arms) {
-    const Matrix3 others =
-        shape_ == Shape::kOrientation ? Matrix3::Identity() : turnOf(3 - spherical_first_, arm.q.data());
-    const Matrix3 spherical =
-        shape_ == Shape::kShoulder ? Matrix3(whole * others.transpose()) : Matrix3(others.transpose() * whole);
-    OrientationSolutions turns;
-    const auto first = static_cast<std::size_t>(spherical_first_);
-    orientation_->solve(spherical, preferred[first], turns);
-    for (const OrientationSolution& turn : turns) {
-      PlanSolution solution = arm;
-      for (std::size_t i = 0; i < 3; ++i) solution.q[first + i] = turn.q[i];
-      solution.sign[2] = turn.sign;
-      if (turn.free) solution.free |= 1U << first;
-      solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solution;
-    }
+}
+
+void ClosedFormPlan::solveOrientation(const Pose& target, const double* preferred, PlanSolutions& solutions) const {
+  OrientationSolutions turns;
+  orientation_->solve(target.R * home_.R.transpose(), preferred[0], turns);
+  addOrientation(PlanSolution(), turns, solutions);
+}
+
+/// With S the turns of the other axes and N, F the frames of the orientation problem: N^T S^T target home^T F for a
+/// wrist; a shoulder's is the transpose, with N and F exchanged. Only S is left for solveSpherical().
+void ClosedFormPlan::foldSpherical() {
+  const bool is_wrist = shape_ == Shape::kWrist;
+  others_ = TurnSequence(stage_axes_, is_wrist ? orientation_->nearFrame() : orientation_->farFrame());
+  before_ = is_wrist ? Matrix3(others_.base().transpose()) : Matrix3(others_.base().transpose() * home_.R);
+  after_ = is_wrist ? Matrix3(home_.R.transpose() * orientation_->farFrame()) : orientation_->nearFrame();
+  start_in_tip_ = home_.inverse() * start_;
+}
+
+void ClosedFormPlan::solveSpherical(const Pose& target, const double* preferred, PlanSolutions& solutions) const {
+  const bool is_wrist = shape_ == Shape::kWrist;
+  // The point where the three axes meet is moved by the other three axes only.
+  const Vector3 goal =
+      is_wrist ? target * start_in_tip_ : Vector3(home_.R * (target.R.transpose() * (start_ - target.p)) + home_.p);
+  PositionSolutions arms;
+  position_->solve(start_, goal, wishedOf(preferred), arms);
+  const Matrix3 M = before_ * (is_wrist ? target.R : Matrix3(target.R.transpose())) * after_;
+  OrientationSolutions turns;
+  for (const PositionSolution& arm : arms) {
+    Matrix3 rest = M;
+    others_.undo(arm.turn, rest);
+    if (!is_wrist) rest.transposeInPlace();
+    orientation_->solveInFrames(rest, preferred[spherical_first_], turns);
+    addOrientation(solutionOf(arm), turns, solutions);
   }
 }
 
@@ -115,20 +142,9 @@ void ClosedFormPlan::solveTurningSlides(const Matrix3& turn, const Vector3& goal
   }
   const std::optional<PositionProblem> problem = PositionProblem::compile(axes, length_);
   if (!problem) return;  // The slides are in line at this heading: nothing but a continuum, or nothing at all.
-  std::array<double, 3> wished{};
-  for (std::size_t i = 0; i < 3; ++i) wished[i] = stage_joints_[i] < 0 ? 0.0 : preferred[stage_joints_[i]];
   PositionSolutions found;
-  problem->solve(start_, goal, wished, found);
+  problem->solve(start_, goal, wishedOf(preferred), found);
   addStage(found, solutions);
-}
-
-Matrix3 ClosedFormPlan::turnOf(int first_joint, const double* q) const {
-  Matrix3 R = Matrix3::Identity();
-  for (int i = first_joint; i < first_joint + 3; ++i) {
-    const Axis& axis = axes_[static_cast<std::size_t>(i)];
-    if (!axis.prismatic) R = R * rotationAbout(axis.direction, q[i]);
-  }
-  return R;
 }
 
 int ClosedFormPlan::signOf(const BranchPart& branch_part, const PlanSolution& solution) {

@@ -50,6 +50,7 @@ void ClosedFormPlan::nameBranches(const SerialChain& chain) {
     const bool third_turns = !g.axes[2].prismatic;
     const std::string side = shape_ == Shape::kShoulder ? "wrist" : "shoulder";
     switch (g.kind) {
+      case PositionKind::kArmPlane:
       case PositionKind::kMeetingAxes:
         parts_.push_back(part(side, "front", "back", "centred", kSecond));
         parts_.push_back(third_turns ? part("elbow", "up", "down", "straight", kBoth)
@@ -142,7 +143,8 @@ double ClosedFormPlan::meaningOf(const BranchPart& branch_part, const double* q)
     const Axis second = axisAt(axes_, values, turns[1]);
     return (pointAt(values) - first.point).dot(second.direction.cross(first.direction));
   };
-  const bool has_shoulder = position_->kind() == PositionKind::kMeetingAxes;
+  const bool has_shoulder =
+      position_->kind() == PositionKind::kMeetingAxes || position_->kind() == PositionKind::kArmPlane;
   if (is_shoulder) {
     const std::array<double, kMaxPlanJoints> zero{};
     const double at_zero = front(zero.data());

@@ -27,6 +27,8 @@ bool isParallel(const Vector3& a, const Vector3& b) {
 
 const char* nameOf(PositionKind kind) {
   switch (kind) {
+    case PositionKind::kArmPlane:
+      return "two axes are parallel, across the other";
     case PositionKind::kMeetingAxes:
       return "two axes meet";
     case PositionKind::kParallelAxes:
@@ -129,6 +131,7 @@ bool ClosedFormPlan::compileSpherical(int first) {
   // A spherical shoulder is a spherical wrist to who stands at the tip: the axes run backwards.
   if (!orientation_ || !compileStage(first == 3 ? std::vector<int>{0, 1, 2} : std::vector<int>{5, 4, 3}, Task()))
     return false;
+  foldSpherical();
   method_ += first == 3 ? ", spherical wrist" : ", spherical shoulder";
   return true;
 }

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "screwline/spatial/pose.h"
-
 namespace screwline {
 namespace {
 
 constexpr double kNegligible = 1e-13;  // Of `scale`: coefficients below it are rounding.
+
+/// Multiples of pi/4.
+constexpr double kRootHalf = 0.70710678118654752440;
+constexpr Turn kEighths[] = {{1.0, 0.0},  {kRootHalf, kRootHalf},   {0.0, 1.0},  {-kRootHalf, kRootHalf},
+                             {-1.0, 0.0}, {-kRootHalf, -kRootHalf}, {0.0, -1.0}, {kRootHalf, -kRootHalf}};
 
 int signOf(double x) {
   return (x > 0.0) - (x < 0.0);
@@ -101,21 +104,21 @@ double squareRootOrNone(double radicand, double scale) {
 
 RealRoots solveSinusoid(double k, double a, double b, double scale) {
   RealRoots roots;
-  const double amplitude = std::hypot(a, b);
+  const double amplitude = std::sqrt(a * a + b * b);
   if (amplitude <= kNegligible * scale) {
     roots.always = std::abs(k) <= kNegligible * scale;
     return roots;
   }
   const double root = squareRootOrNone((amplitude - k) * (amplitude + k), amplitude * std::max(amplitude, scale));
   if (root < 0.0) return roots;
-  const double middle = std::atan2(b, a);
+  const Turn middle = {a / amplitude, b / amplitude};
   if (root == 0.0) {
-    roots.add(k < 0.0 ? middle : middle + kPi, 0);
+    roots.add(k < 0.0 ? middle : middle.opposite(), 0);
     return roots;
   }
-  const double half_width = std::atan2(root, -k);
-  roots.add(middle - half_width, 1);
-  roots.add(middle + half_width, -1);
+  const Turn half_width = {-k / amplitude, root / amplitude};
+  roots.add(middle * half_width.inverse(), 1);
+  roots.add(middle * half_width, -1);
   return roots;
 }
 
@@ -137,30 +140,31 @@ RealRoots solvePolynomial(const double* c, int degree, double scale) {
 }
 
 RealRoots solveSecondHarmonic(double k, double a, double b, double c, double d, double scale) {
-  if (std::hypot(c, d) <= kNegligible * scale) return solveSinusoid(k, a, b, scale);
-  const auto value = [&](double x) {
-    return k + a * std::cos(x) + b * std::sin(x) + c * std::cos(2.0 * x) + d * std::sin(2.0 * x);
-  };
-  double pole = 0.0;
-  for (int i = 1; i < 8; ++i) {
-    if (std::abs(value(i * kPi / 4.0)) > std::abs(value(pole))) pole = i * kPi / 4.0;
+  if (std::sqrt(c * c + d * d) <= kNegligible * scale) return solveSinusoid(k, a, b, scale);
+  Turn pole;
+  double largest = -1.0;
+  for (const Turn& turn : kEighths) {
+    const Turn twice = turn * turn;
+    const double value = std::abs(k + a * turn.c + b * turn.s + c * twice.c + d * twice.s);
+    if (value <= largest) continue;
+    largest = value;
+    pole = turn;
   }
-  // y = x - (pole - pi), so that y = pi, where tan(y/2) is infinite, is the pole.
-  const double shift = pole - kPi;
-  const double cs = std::cos(shift);
-  const double ss = std::sin(shift);
-  const double c2 = std::cos(2.0 * shift);
-  const double s2 = std::sin(2.0 * shift);
-  const double ay = a * cs + b * ss;
-  const double by = b * cs - a * ss;
-  const double cy = c * c2 + d * s2;
-  const double dy = d * c2 - c * s2;
+  // y = x - shift, so that y = pi, where tan(y/2) is infinite, is the pole.
+  const Turn shift = pole.opposite();
+  const Turn twice = shift * shift;
+  const double ay = a * shift.c + b * shift.s;
+  const double by = b * shift.c - a * shift.s;
+  const double cy = c * twice.c + d * twice.s;
+  const double dy = d * twice.c - c * twice.s;
   // (1 + t^2)^2 times the function, with t = tan(y/2).
   const double quartic[5] = {k + ay + cy, 2.0 * by + 4.0 * dy, 2.0 * k - 6.0 * cy, 2.0 * by - 4.0 * dy, k - ay + cy};
   RealRoots roots = solvePolynomial(quartic, 4, 0.0);
   for (int i = 0; i < roots.count; ++i) {
     RealRoot& root = roots.roots[static_cast<std::size_t>(i)];
-    root.value = 2.0 * std::atan(root.value) + shift;
+    const double t = root.value;
+    const double scale_y = 1.0 / (1.0 + t * t);
+    root.turn = shift * Turn{(1.0 - t * t) * scale_y, 2.0 * t * scale_y};
   }
   return roots;
 }

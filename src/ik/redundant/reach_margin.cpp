@@ -42,6 +42,7 @@ std::optional<ReachMargin> ReachMargin::compile(const SerialChain& chain, int pa
       if (axes[0].prismatic || axes[1].prismatic || axes[2].prismatic) continue;
       const std::optional<PositionProblem> problem = PositionProblem::compile(axes, chain.characteristicLength());
       if (!problem || problem->kind() == PositionKind::kSkewAxes) continue;
+      if (problem->kind() == PositionKind::kArmPlane && problem->geometry().offset != 0.0) continue;
       margin.geometry_ = problem->geometry();
       return margin;
     }
@@ -65,7 +66,7 @@ double ReachMargin::at(const Pose& target, double value, double side) const {
   const double height = g.axes[0].direction.dot(r);
   const double radius = std::hypot(g.x1.dot(r), g.y1.dot(r));
   const CarriedPoint carried(g.axes[2], center_);
-  const bool meeting = g.kind == PositionKind::kMeetingAxes;
+  const bool meeting = g.kind != PositionKind::kParallelAxes;
   const Form along = carried.along(g.axes[1].direction, g.axes[1].point);
   const Form left =
       meeting ? carried.squareFrom(g.axes[1].point) + -(height * height + radius * radius) : g.cosine * along + -height;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "screwline/model/joint.h"
+#include "screwline/spatial/turn.h"
 
 namespace screwline {
 
@@ -24,23 +25,42 @@ struct OrientationSolutions {
 };
 
 /// R1(q1) R2(q2) R3(q3) = Q for three revolute axes of any directions (neighbours not parallel): what axis 1 keeps of
-/// axis 3's image gives the middle angle, the others follow (Paden's second subproblem; Craig, ch. 4.7). Solving
-/// allocates nothing.
+/// axis 3's image gives the middle angle, the others follow (Paden's second subproblem; Craig, ch. 4.7). Seen from a
+/// frame N on axis 1 and a frame F on axis 3, N^T Q F = Rz(q1) Ry(a) Rz(u) Ry(-b) Rz(q3), with a and b the angles
+/// between neighbours and u the middle angle from where axes 1 and 3 come nearest. Solving allocates nothing.
 class OrientationProblem {
  public:
   /// Empty where neighbouring directions are parallel.
   static std::optional<OrientationProblem> compile(const std::array<Axis, 3>& axes);
 
   /// @param preferred value of q1 where it turns out free.
-  void solve(const Matrix3& Q, double preferred, OrientationSolutions& solutions) const;
+  void solve(const Matrix3& Q, double preferred, OrientationSolutions& solutions) const {
+    solveInFrames(near_.transpose() * Q * far_, preferred, solutions);
+  }
+
+  /// The same for M = N^T Q F.
+  void solveInFrames(const Matrix3& M, double preferred, OrientationSolutions& solutions) const;
+
+  const Matrix3& nearFrame() const { return near_; }  ///< N; its z is axis 1.
+  const Matrix3& farFrame() const { return far_; }    ///< F; its z is axis 3.
 
  private:
-  std::array<Vector3, 3> axis_;
-  double first_angle_ = 0.0;   ///< Between axes 1 and 2, in (0, pi).
-  double second_angle_ = 0.0;  ///< Between axes 2 and 3.
-  double nearest_ = 0.0;       ///< Middle angle at which axis 3 is nearest to axis 1.
-  Vector3 x1_, y1_;            ///< Across axis 1.
-  Vector3 x3_, y3_;            ///< Across axis 3.
+  struct Middle {
+    Turn turn;  ///< u, in [0, pi].
+    bool reached = true;
+    bool is_double = false;
+  };
+  Middle middleOf(double cosine, double sine) const;
+  void solveAcross(const Matrix3& M, double sine, OrientationSolutions& solutions) const;
+
+  Matrix3 near_;
+  Matrix3 far_;
+  Turn first_;    ///< Between axes 1 and 2, in (0, pi).
+  Turn second_;   ///< Between axes 2 and 3.
+  Turn nearest_;  ///< Middle angle at which axis 3 is nearest to axis 1.
+  Turn half_sum_;
+  Turn half_difference_;
+  bool across_ = false;  ///< Neighbours are at right angles.
 };
 
 }  // namespace screwline

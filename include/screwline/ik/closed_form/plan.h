@@ -8,6 +8,7 @@
 
 #include "screwline/ik/closed_form/orientation_problem.h"
 #include "screwline/ik/closed_form/position_problem.h"
+#include "screwline/ik/closed_form/turn_sequence.h"
 #include "screwline/model/serial_chain.h"
 #include "screwline/model/task.h"
 
@@ -76,13 +77,17 @@ class ClosedFormPlan {
   static int signOf(const BranchPart& branch_part, const PlanSolution& solution);
   double meaningOf(const BranchPart& branch_part, const double* q) const;
 
+  void foldSpherical();
+  std::array<double, 3> wishedOf(const double* preferred) const;
   void solvePosition(const Vector3& goal, const double* preferred, PlanSolutions& solutions) const;
+  void solveOrientation(const Pose& target, const double* preferred, PlanSolutions& solutions) const;
   void solveSpherical(const Pose& target, const double* preferred, PlanSolutions& solutions) const;
   void solveHeading(const Pose& target, const double* preferred, PlanSolutions& solutions) const;
   void solveTurningSlides(const Matrix3& turn, const Vector3& goal, const double* preferred,
                           PlanSolutions& solutions) const;
   void addStage(const PositionSolutions& found, PlanSolutions& solutions) const;
-  Matrix3 turnOf(int first_joint, const double* q) const;
+  PlanSolution solutionOf(const PositionSolution& position) const;
+  void addOrientation(const PlanSolution& arm, const OrientationSolutions& turns, PlanSolutions& solutions) const;
 
   Shape shape_ = Shape::kPosition;
   Pose home_;
@@ -96,8 +101,12 @@ class ClosedFormPlan {
   double stage_sign_ = 1.0;          ///< -1 where the problem runs from the tip to the base.
   Vector3 start_ = Vector3::Zero();  ///< Point that the position problem moves, at zero.
   std::optional<OrientationProblem> orientation_;
-  int spherical_first_ = 0;  ///< First joint of the orientation problem.
-  int heading_joint_ = -1;   ///< Joint that takes the heading.
+  int spherical_first_ = 0;               ///< First joint of the orientation problem.
+  TurnSequence others_;                   ///< Turns of the position problem's axes, as the spherical axes see them.
+  Matrix3 before_ = Matrix3::Identity();  ///< Constants on both sides of the target's rotation.
+  Matrix3 after_ = Matrix3::Identity();
+  Vector3 start_in_tip_ = Vector3::Zero();  ///< [m] `start_`, tip's frame.
+  int heading_joint_ = -1;                  ///< Joint that takes the heading.
   Vector3 heading_axis_ = Vector3::UnitZ();
   bool turning_slides_ =
       false;  ///< Slides behind the heading joint turn with it: the position problem is compiled per pose.

@@ -6,12 +6,14 @@
 
 #include "screwline/ik/closed_form/roots.h"
 #include "screwline/model/joint.h"
+#include "screwline/spatial/turn.h"
 
 namespace screwline {
 
 /// One way to bring the point to its goal.
 struct PositionSolution {
-  std::array<double, 3> q{};  ///< Displacements of the three axes, revolute ones not wrapped.
+  std::array<double, 3> q{};   ///< Displacements of the three axes.
+  std::array<Turn, 3> turn{};  ///< The same of revolute axes; prismatic ones do not turn.
   std::array<bool, 3>
       free{};  ///< Any value of this axis does (the others' may depend on it): `q` holds the preferred one.
   std::array<int, 2>
@@ -30,6 +32,7 @@ struct PositionSolutions {
 
 /// Which equation is left, and so what its roots mean.
 enum class PositionKind {
+  kArmPlane,        ///< R R R, axes 2 and 3 parallel, axis 1 across them: as kMeetingAxes. Most industrial arms.
   kMeetingAxes,     ///< R R x, axes 1 and 2 meet: sign 0 is the third axis', sign 1 the side of axis 1 (shoulder).
   kParallelAxes,    ///< R R x, axes 1 and 2 parallel: sign 0 is the third axis', sign 1 that of the two-link triangle.
   kSkewAxes,        ///< R R x in general: a quartic in the third.
@@ -53,13 +56,19 @@ struct PositionGeometry {
   double cosine = 1.0;  ///< Of the angle between axes 1 and 2.
   double sine = 0.0;
   double offset = 0.0;  ///< [m] of axis 2 from axis 1, along ey.
+  /// kArmPlane: axis 3 from axis 2 in the plane of ex and ey, and which way axis 3 turns in it.
+  double link_x = 0.0;
+  double link_y = 0.0;
+  double link = 0.0;  ///< [m] its length.
+  double third_sense = 1.0;
 };
 
 /// J1(q1) J2(q2) J3(q3) start = goal for three axes, revolute or prismatic in any order: Pieper's problem. The first
 /// axis is eliminated by what it cannot change (the goal's height along it and distance from it; or the two coordinates
 /// across a slide), the second by the length of what it turns; one equation in the third is left: a sinusoid, a
 /// quadratic, or, in general, a quartic (Pieper 1968; Craig, ch. 4.6; the cases are those of Elias & Wen's subproblems
-/// 3 to 5). Constants are folded in once; solving allocates nothing.
+/// 3 to 5). All in cosines and sines: the angles are taken at the end. Constants are folded in once; solving allocates
+/// nothing.
 class PositionProblem {
  public:
   /// `length` [m] is the chain's size, by which distances count as zero. Empty where the axes cannot solve a position

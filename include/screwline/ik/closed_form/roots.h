@@ -3,12 +3,15 @@
 
 #include <array>
 
+#include "screwline/spatial/turn.h"
+
 namespace screwline {
 
 /// A real root and the sign of the function's derivative there: it tells roots apart along a path. 0: a double root,
 /// where two meet.
 struct RealRoot {
-  double value = 0.0;
+  double value = 0.0;  ///< Of a polynomial.
+  Turn turn;           ///< Of an equation in an angle.
   int slope = 0;
 };
 
@@ -18,7 +21,8 @@ struct RealRoots {
   int count = 0;
   bool always = false;
 
-  void add(double value, int slope) { roots[static_cast<std::size_t>(count++)] = {value, slope}; }
+  void add(double value, int slope) { roots[static_cast<std::size_t>(count++)] = {value, Turn(), slope}; }
+  void add(const Turn& turn, int slope) { roots[static_cast<std::size_t>(count++)] = {0.0, turn, slope}; }
   const RealRoot* begin() const { return roots.data(); }
   const RealRoot* end() const { return roots.data() + count; }
 };
@@ -31,8 +35,7 @@ constexpr double kDoubleRootTolerance = 1e-14;
 /// 0 within kDoubleRootTolerance * scale of zero, and -1 where it is negative beyond that.
 double squareRootOrNone(double radicand, double scale);
 
-/// k + a cos(x) + b sin(x) = 0. Angles in (-2 pi, 2 pi), not wrapped. `scale` is the size below which coefficients are
-/// rounding.
+/// k + a cos(x) + b sin(x) = 0. Roots are turns. `scale` is the size below which coefficients are rounding.
 RealRoots solveSinusoid(double k, double a, double b, double scale);
 
 /// Real roots of c[0] + c[1] x + ... + c[degree] x^degree, degree <= 4, by bracketing between the roots of the

@@ -1,0 +1,39 @@
+#include "screwline/ik/closed_form/turn_sequence.h"
+
+#include "screwline/spatial/rotation.h"
+
+namespace screwline {
+namespace {
+
+/// Unit vector across both; any across the first where they are parallel. What rounding puts along the first is taken
+/// off.
+Vector3 commonNormal(const Vector3& first, const Vector3& second) {
+  const Vector3 normal = first.cross(second);
+  const double length = normal.norm();
+  if (length == 0.0) return anyPerpendicular(first);
+  const Vector3 across = normal / length - first * first.dot(normal / length);
+  return across.norm() > 0.5 ? Vector3(across.normalized()) : anyPerpendicular(first);
+}
+
+/// The turn about `axis` from one direction across it to another.
+Turn turnAbout(const Vector3& axis, const Vector3& from, const Vector3& to) {
+  return normalized({from.dot(to), axis.dot(from.cross(to))});
+}
+
+}  // namespace
+
+TurnSequence::TurnSequence(const std::array<Axis, 3>& axes, const Matrix3& N) {
+  Vector3 before = commonNormal(axes[0].direction, axes[1].direction);
+  base_ << before, axes[0].direction.cross(before), axes[0].direction;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3& axis = axes[i].direction;
+    const Vector3 next = i < 2 ? axes[i + 1].direction : Vector3(N.col(2));
+    const Vector3 normal = commonNormal(axis, next);
+    offset_[i] = turnAbout(axis, before, normal);
+    tilt_[i] = turnAbout(normal, axis, next);
+    before = normal;
+  }
+  last_ = turnAbout(N.col(2), before, N.col(0));
+}
+
+}  // namespace screwline
