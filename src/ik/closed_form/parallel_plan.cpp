@@ -35,7 +35,7 @@ struct ParallelPlan::Roots {
 };
 
 Turn ParallelPlan::preferredTurn(const Question& question, int axis) const {
-  return Turn::of(signOf() * question.preferred[jointOf(axis)]);
+  return Turn::of(sense_[static_cast<std::size_t>(axis)] * question.preferred[jointOf(axis)]);
 }
 
 ParallelPlan::Question ParallelPlan::questionOf(const Pose& target, const double* preferred) const {
@@ -176,8 +176,10 @@ void ParallelPlan::solvePlane(const Question& question, const Root& root, const 
     turns[static_cast<std::size_t>(single_axis_)] = root.turn;
     turns[static_cast<std::size_t>(pair_axis_)] = pair.first;
     turns[static_cast<std::size_t>(pair_axis_) + 1] = pair.second;
-    for (int axis = 0; axis < 6; ++axis)
-      solution.q[static_cast<std::size_t>(jointOf(axis))] = signOf() * turns[static_cast<std::size_t>(axis)].angle();
+    for (int axis = 0; axis < 6; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      solution.q[static_cast<std::size_t>(jointOf(axis))] = sense_[i] * turns[i].angle();
+    }
     const auto keepFree = [&](bool free, int axis) {
       if (!free) return;
       solution.free |= bitOf(axis);
@@ -228,8 +230,10 @@ std::vector<double> ParallelPlan::extremes(const Pose& target, const double* pre
     const double along = middle.c * (places[0].c - middle.c) + middle.s * (places[0].s - middle.s);
     const double across = middle.c * (places[1].c - middle.c) + middle.s * (places[1].s - middle.s);
     if (std::hypot(along, across) <= kNegligible * length_ * length_) continue;
-    values.push_back(signOf() * std::atan2(across, along));
-    values.push_back(signOf() * std::atan2(-across, -along));
+    // Both ways alike but for the sense in which the joint is counted.
+    const double sense = sense_[static_cast<std::size_t>(is_first ? pair_axis_ : pair_axis_ + 1)];
+    values.push_back(sense * std::atan2(across, along));
+    values.push_back(sense * std::atan2(-across, -along));
   }
   return values;
 }

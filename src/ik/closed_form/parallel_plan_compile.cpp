@@ -74,11 +74,17 @@ bool ParallelPlan::compileOrder(const SerialChain& chain, bool reversed, int fir
     const Axis& source = chain.axes()[static_cast<std::size_t>(jointOf(axis))];
     direction_[i] = source.direction;
     point_[i] = source.point;
+    sense_[i] = reversed ? -1.0 : 1.0;
     if (axis > 0) reach_ += (point_[i] - point_[i - 1]).norm();
   }
   const auto k = static_cast<std::size_t>(first_parallel);
   const Vector3& h = direction_[k];
   if (!areParallel(h, direction_[k + 1]) || !areParallel(h, direction_[k + 2])) return false;
+  for (std::size_t i = k + 1; i < k + 3; ++i) {
+    const double alike = std::copysign(1.0, direction_[i].dot(h));
+    direction_[i] *= alike;
+    sense_[i] *= alike;
+  }
   const auto pair = static_cast<std::size_t>(jointOf(pair_axis_));
   const auto next = static_cast<std::size_t>(jointOf(pair_axis_ + 1));
   const AxisRelation relation = relate(chain.axes()[pair], chain.axes()[next], length_);

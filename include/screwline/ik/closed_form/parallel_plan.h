@@ -68,15 +68,15 @@ class ParallelPlan {
   Turn preferredTurn(const Question& question, int axis) const;
   int jointOf(int axis) const { return reversed_ ? 5 - axis : axis; }
   unsigned bitOf(int axis) const { return 1U << jointOf(axis); }
-  double signOf() const { return reversed_ ? -1.0 : 1.0; }
 
   bool reversed_ = false;
   Single single_ = Single::kBeforeParallel;
   int first_parallel_ = 1;
   int single_axis_ = 0;
-  int pair_axis_ = 4;  ///< First of the two.
-  std::array<Vector3, 6> direction_;
+  int pair_axis_ = 4;                 ///< First of the two.
+  std::array<Vector3, 6> direction_;  ///< Parallel ones all point the same way.
   std::array<Vector3, 6> point_;
+  std::array<double, 6> sense_{};      ///< -1 where the joint turns the other way round.
   Vector3 meeting_ = Vector3::Zero();  ///< Where the pair's axes meet.
   Vector3 x_ = Vector3::UnitX();       ///< x, y: the plane across the parallel axes.
   Vector3 y_ = Vector3::UnitY();
