@@ -15,6 +15,15 @@ constexpr double kSameSolution = 1e-6;
 /// Errors, by forward kinematics, that a solution may have: m and rad.
 constexpr double kSolutionTolerance = 1e-9;
 
+/// What is told of a continuum.
+struct Continuum {
+  VectorX nearest;     ///< Its member nearest to the seed; within limits, where they are honoured and any member is.
+  MatrixX directions;  ///< k x n, orthonormal rows: tangents at `nearest`.
+  std::vector<int> free_joints;  ///< That move along it.
+  VectorX lower;  ///< Range of each of them, moving from `nearest` one parameter at a time until a limit is met.
+  VectorX upper;
+};
+
 /// A configuration that a solver proposes, on its way to becoming an IkAnswer.
 struct Candidate {
   VectorX q;
@@ -24,6 +33,8 @@ struct Candidate {
   /// Member of the same branch of the continuum with the free joints at the values that `preferred` has; false where
   /// there is none.
   std::function<bool(const VectorX& preferred, VectorX& q)> member;
+  /// Given where the solver knows the continuum better than by members: describes it itself.
+  std::function<Continuum(const VectorX& seed, bool ignore_limits)> describe;
 };
 
 /// q with revolute values brought next to `reference` by full turns.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ik_request_check.h"
+#include "parallel_candidates.h"
 #include "plan_candidates.h"
 #include "screwline/exception.h"
 #include "screwline/ik/algebraic/algebraic_solver.h"
@@ -59,6 +60,11 @@ struct InverseKinematics::Implementation {
       if (plan->task.size() < task.size()) method += "; the other rows of the task are checked";
       return;
     }
+    parallel = parallelMethodFor(chain, task);
+    if (parallel) {
+      method = "closed form: " + parallel->plan.method();
+      return;
+    }
     // Both are empty where the chain has another number of joints.
     if (task.size() == 6) {
       algebraic = AlgebraicSolver::compile(chain);
@@ -69,11 +75,13 @@ struct InverseKinematics::Implementation {
                          : "numerical search (Levenberg-Marquardt from many starts)";
   }
 
-  bool isExact() const { return plan || algebraic || (redundant && redundant->closedForm()); }
+  bool isExact() const { return plan || parallel || algebraic || (redundant && redundant->closedForm()); }
 
-  std::vector<Candidate> candidates(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
-  void keep(const IkRequest& request, const std::vector<Candidate>& candidates, const SolutionBuilder& builder,
+  std::vector<Candidate> candidates(const IkRequest& request, const SolutionBuilder& builder, bool doubted,
+                                    IkResult& result) const;
+  bool keep(const IkRequest& request, const std::vector<Candidate>& candidates, const SolutionBuilder& builder,
             IkResult& result) const;
+  bool gather(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   void admit(const IkRequest& request, const IkAnswer& solution, const SolutionBuilder& builder,
              IkResult& result) const;
   void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
@@ -84,13 +92,14 @@ struct InverseKinematics::Implementation {
   Task task;
   // At most one of these; none: searched.
   std::optional<TaskPlan> plan;
+  std::optional<ParallelMethod> parallel;
   std::optional<AlgebraicSolver> algebraic;
   std::optional<SelfMotionSolver> redundant;
   std::string method;
 };
 
 std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkRequest& request,
-                                                                     const SolutionBuilder& builder,
+                                                                     const SolutionBuilder& builder, bool doubted,
                                                                      IkResult& result) const {
   if (plan) {
     std::vector<Candidate> found = candidatesOf(*plan, chain, request.target, builder.seed());
@@ -101,6 +110,11 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
     if (plan->task.size() == task.size()) return found;
     for (Candidate& candidate : found) candidate.free.clear();
     return found;
+  }
+  if (parallel) {
+    ParallelCandidates found = candidatesOf(*parallel, chain, request.target, builder.seed(), doubted);
+    result.complete = found.complete;
+    return found.found;
   }
   std::vector<Candidate> found;
   if (algebraic) {
@@ -121,18 +135,21 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
   return found;
 }
 
-void InverseKinematics::Implementation::keep(const IkRequest& request, const std::vector<Candidate>& candidates,
+/// False where a candidate is none that should be one.
+bool InverseKinematics::Implementation::keep(const IkRequest& request, const std::vector<Candidate>& candidates,
                                              const SolutionBuilder& builder, IkResult& result) const {
+  bool all = true;
   for (const Candidate& candidate : candidates) {
     std::optional<IkAnswer> solution = builder.build(candidate);
     if (!solution) {
       // Rows that the plan does not know reject solutions rightly; its own rows never should.
-      if (algebraic || (plan && plan->task.size() == task.size())) result.complete = false;
+      if (algebraic || parallel || (plan && plan->task.size() == task.size())) all = false;
       continue;
     }
     if (chain.size() > task.size()) describeRedundancy(chain, task, *solution);
     admit(request, *solution, builder, result);
   }
+  return all;
 }
 
 /// Into the list, in every turn asked for, unless limits or the branch forbid it.
@@ -187,8 +204,9 @@ std::string InverseKinematics::Implementation::account(const IkRequest& request,
   if (result.left_out > 0) {
     incomplete = "; " + std::to_string(result.left_out) + " left out by max_solutions";
   } else if (!result.complete) {
-    incomplete = plan        ? "; the list may be incomplete: a continuum was met whose members had to be searched"
-                 : algebraic ? "; the list may be incomplete: the pose is at or near a continuum or a multiple solution"
+    incomplete = plan ? "; the list may be incomplete: a continuum was met whose members had to be searched"
+                 : algebraic || parallel
+                     ? "; the list may be incomplete: the pose is at or near a continuum or a multiple solution"
                  : redundant ? "; the list may be incomplete: self-motions were found by numerical search or meet"
                              : "; the list may be incomplete: found by numerical search";
   }
@@ -258,9 +276,25 @@ bool InverseKinematics::complete() const {
 
 std::vector<std::string> InverseKinematics::branches() const {
   const Implementation& self = *implementation_;
-  if (self.plan) return branchNamesOf(self.plan->plan);
+  if (self.plan) return branchNamesOf(self.plan->plan.branchParts());
+  if (self.parallel) return branchNamesOf(self.parallel->plan.branchParts());
   const bool named = self.redundant && self.redundant->closedForm();
-  return named ? branchNamesOf(self.redundant->closedForm()->plan()) : std::vector<std::string>();
+  return named ? branchNamesOf(self.redundant->closedForm()->plan().branchParts()) : std::vector<std::string>();
+}
+
+/// Candidates into the list; false where there was none.
+bool InverseKinematics::Implementation::gather(const IkRequest& request, const SolutionBuilder& builder,
+                                               IkResult& result) const {
+  std::vector<Candidate> found = joinEqual(chain, candidates(request, builder, false, result));
+  bool all = keep(request, found, builder, result);
+  if (!all && parallel) {
+    result.solutions.clear();
+    result.outside_limits = 0;
+    found = joinEqual(chain, candidates(request, builder, true, result));
+    all = keep(request, found, builder, result) || result.complete;
+  }
+  if (!all) result.complete = false;
+  return !found.empty();
 }
 
 IkResult InverseKinematics::solve(const IkRequest& request) const {
@@ -276,9 +310,7 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
     for (const IkAnswer& answer : answers) self.admit(request, answer, builder, result);
     any = !answers.empty();
   } else {
-    const std::vector<Candidate> candidates = joinEqual(self.chain, self.candidates(request, builder, result));
-    self.keep(request, candidates, builder, result);
-    any = !candidates.empty();
+    any = self.gather(request, builder, result);
   }
   self.admitSeed(builder, result);
   const bool existed = result.outside_limits > 0 || !result.solutions.empty();

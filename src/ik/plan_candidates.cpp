@@ -97,9 +97,9 @@ std::vector<Candidate> candidatesOf(const TaskPlan& plan, const SerialChain& cha
   return candidates;
 }
 
-std::vector<std::string> branchNamesOf(const ClosedFormPlan& plan) {
+std::vector<std::string> branchNamesOf(const std::vector<BranchPart>& parts) {
   std::vector<std::string> names;
-  for (const BranchPart& part : plan.branchParts())
+  for (const BranchPart& part : parts)
     names.insert(names.end(), {part.positive, part.negative, part.neutral});
   return names;
 }

@@ -24,8 +24,8 @@ std::optional<TaskPlan> planFor(const SerialChain& chain, const Task& task);
 std::vector<Candidate> candidatesOf(const TaskPlan& plan, const SerialChain& chain, const Pose& target,
                                     const VectorX& seed);
 
-/// Every part of a branch name that the plan uses, the neutral ones included.
-std::vector<std::string> branchNamesOf(const ClosedFormPlan& plan);
+/// Every part of a branch name that a plan uses, the neutral ones included.
+std::vector<std::string> branchNamesOf(const std::vector<BranchPart>& parts);
 
 /// Whether a solution's branch has every part that is wished; "elbow straight" is on both elbow branches.
 bool matchesBranch(const std::string& branch, const std::string& wish);

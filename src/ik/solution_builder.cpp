@@ -33,7 +33,8 @@ std::optional<IkAnswer> SolutionBuilder::build(const Candidate& candidate) const
   solution.branch = candidate.branch;
   solution.position = candidate.q;
   if (!candidate.free.empty()) {
-    Continuum continuum = describeContinuum(chain_, candidate, seed_, request_.ignore_limits);
+    Continuum continuum = candidate.describe ? candidate.describe(seed_, request_.ignore_limits)
+                                             : describeContinuum(chain_, candidate, seed_, request_.ignore_limits);
     solution.position = continuum.nearest;
     solution.self_motion = continuum.directions;
     solution.free_joints = continuum.free_joints;
@@ -97,7 +98,8 @@ std::vector<Candidate> joinEqual(const SerialChain& chain, std::vector<Candidate
   std::vector<Candidate> distinct;
   for (Candidate& candidate : candidates) {
     const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const Candidate& other) {
-      return other.free == candidate.free && largestDifference(chain, other.q, candidate.q) <= kSameSolution;
+      return other.free == candidate.free && !other.describe && !candidate.describe &&
+             largestDifference(chain, other.q, candidate.q) <= kSameSolution;
     });
     if (same == distinct.end()) {
       distinct.push_back(std::move(candidate));

@@ -1,0 +1,281 @@
+#include "screwline/ik/closed_form/parallel_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "screwline/ik/closed_form/roots.h"
+
+namespace screwline {
+namespace {
+
+constexpr double kRounding = 4e-15;    // Of a length over the chain's.
+constexpr double kNegligible = 1e-13;  // The same: terms below it are rounding.
+constexpr double kMostError = 1e-2;    // [rad] that is carried on: what is worse is left to other methods.
+
+}  // namespace
+
+/// A pose on its way through the stages.
+struct ParallelPlan::Question {
+  Pose G;         ///< What the six turns have to do to the base frame.
+  Vector3 image;  ///< Parallel axes' direction, seen from behind the last axis.
+  const double* preferred;
+};
+
+/// A turn of the single joint.
+struct ParallelPlan::Root {
+  Turn turn;
+  int sign = 0;        ///< Of the slope.
+  bool free = false;   ///< Any turn does.
+  double error = 0.0;  ///< [rad]
+};
+
+struct ParallelPlan::Roots {
+  std::array<Root, 2> roots;
+  int count = 0;
+};
+
+Turn ParallelPlan::preferredTurn(const Question& question, int axis) const {
+  return Turn::of(sense_[static_cast<std::size_t>(axis)] * question.preferred[jointOf(axis)]);
+}
+
+ParallelPlan::Question ParallelPlan::questionOf(const Pose& target, const double* preferred) const {
+  Question question{target * home_inverse_, Vector3::Zero(), preferred};
+  if (reversed_) question.G = question.G.inverse();
+  question.image = question.G.R.transpose() * direction_[static_cast<std::size_t>(first_parallel_)];
+  return question;
+}
+
+/// The parallel axes leave the meeting point's height along them: u . R(q) v = height in the single joint's turn.
+ParallelPlan::Roots ParallelPlan::singleRoots(const Question& question) const {
+  const auto i = static_cast<std::size_t>(single_axis_);
+  const Vector3& axis = direction_[i];
+  const Vector3& point = point_[i];
+  const Vector3& h = direction_[static_cast<std::size_t>(first_parallel_)];
+  Vector3 u = h;
+  Vector3 v = h;
+  double height = 0.0;
+  switch (single_) {
+    case Single::kBeforeParallel:
+      u = question.G * meeting_ - point;
+      height = h.dot(meeting_ - point);
+      break;
+    case Single::kBetween:
+      v = meeting_ - point;
+      height = h.dot(question.G * meeting_ - point);
+      break;
+    case Single::kBehindPair:
+      u = meeting_ - point;
+      v = question.image;
+      height = h.dot(meeting_ - question.G * point);
+      break;
+  }
+  const double along = axis.dot(u) * axis.dot(v);
+  const double a = u.dot(v) - along;
+  const double b = axis.dot(v.cross(u));
+  const double k = along - height;
+  const double amplitude = std::sqrt(a * a + b * b);
+  const double scale = std::max(length_, std::abs(height));
+  Roots roots;
+  Root root;
+  if (amplitude <= kNegligible * scale && std::abs(k) <= kNegligible * scale) {
+    root.free = true;
+    root.turn = preferredTurn(question, single_axis_);
+    roots.roots[0] = root;
+    roots.count = 1;
+    return roots;
+  }
+  const double distance = squareRootOrNone((amplitude - k) * (amplitude + k), amplitude * std::max(amplitude, scale));
+  if (distance < 0.0 || amplitude <= kNegligible * scale) return roots;
+  const double least = std::sqrt(kDoubleRootTolerance * amplitude * std::max(amplitude, scale));
+  root.error = kRounding * scale / std::max(distance, least);
+  if (distance == 0.0) {
+    root.turn = Turn::along(-k * a, -k * b);
+    roots.roots[0] = root;
+    roots.count = 1;
+    return roots;
+  }
+  for (int sign : {1, -1}) {
+    root.sign = sign;
+    root.turn = Turn::along(-k * a + sign * b * distance, -k * b - sign * a * distance);
+    roots.roots[static_cast<std::size_t>(roots.count++)] = root;
+  }
+  return roots;
+}
+
+/// The pair has to turn `start` to `goal`: the parallel axes' direction seen from both sides.
+void ParallelPlan::directions(const Question& question, const Turn& single, Vector3& start, Vector3& goal) const {
+  const Vector3& axis = direction_[static_cast<std::size_t>(single_axis_)];
+  const Vector3& h = direction_[static_cast<std::size_t>(first_parallel_)];
+  start = question.image;
+  goal = h;
+  switch (single_) {
+    case Single::kBeforeParallel:
+      start = question.G.R.transpose() * turned(axis, single, h);
+      break;
+    case Single::kBetween:
+      goal = turned(axis, single.inverse(), h);
+      break;
+    case Single::kBehindPair:
+      start = turned(axis, single, question.image);
+      break;
+  }
+}
+
+void ParallelPlan::solvePair(const Question& question, const Root& root, ParallelSolutions& solutions) const {
+  Vector3 start;
+  Vector3 goal;
+  directions(question, root.turn, start, goal);
+  DirectionSolutions pairs;
+  pair_->solve(start, goal, std::min(root.error, kMostError), preferredTurn(question, pair_axis_),
+               preferredTurn(question, pair_axis_ + 1), pairs);
+  for (const DirectionSolution& pair : pairs) {
+    if (root.free) solutions.open |= bitOf(single_axis_);
+    if (pair.first_free) solutions.open |= bitOf(pair_axis_);
+    if (pair.second_free) solutions.open |= bitOf(pair_axis_ + 1);
+    solvePlane(question, root, pair, solutions);
+  }
+}
+
+/// Where the other joints leave the third parallel axis from the first, and the heading behind it.
+void ParallelPlan::placeOf(const Question& question, const Turn& single, const Turn& first, const Turn& second,
+                           Turn& place, Turn& heading) const {
+  const auto k = static_cast<std::size_t>(first_parallel_);
+  Vector3 point = point_[k + 2];
+  Vector3 side = x_;
+  const auto undo = [&](int axis, const Turn& turn) {
+    const auto i = static_cast<std::size_t>(axis);
+    point = point_[i] + turned(direction_[i], turn.inverse(), point - point_[i]);
+    side = turned(direction_[i], turn.inverse(), side);
+  };
+  if (single_ == Single::kBetween) undo(single_axis_, single);
+  undo(pair_axis_, first);
+  undo(pair_axis_ + 1, second);
+  if (single_ == Single::kBehindPair) undo(single_axis_, single);
+  point = question.G * point;
+  side = question.G.R * side;
+  if (single_ == Single::kBeforeParallel) undo(single_axis_, single);
+  point -= point_[k];
+  place = {point.dot(x_), point.dot(y_)};
+  heading = Turn::along(side.dot(x_), side.dot(y_));
+}
+
+void ParallelPlan::solvePlane(const Question& question, const Root& root, const DirectionSolution& pair,
+                              ParallelSolutions& solutions) const {
+  const auto k = static_cast<std::size_t>(first_parallel_);
+  Turn place;
+  Turn heading;
+  placeOf(question, root.turn, pair.first, pair.second, place, heading);
+  const double error = std::min(root.error + pair.error, kMostError);
+  PlanarSolutions planes;
+  plane_->solve(place.c, place.s, heading, error * reach_, preferredTurn(question, first_parallel_), planes);
+  for (const PlanarSolution& plane : planes) {
+    if (plane.free) solutions.open |= bitOf(first_parallel_);
+    PlanSolution solution;
+    std::array<Turn, 6> turns;
+    for (std::size_t i = 0; i < 3; ++i) turns[k + i] = plane.turns[i];
+    turns[static_cast<std::size_t>(single_axis_)] = root.turn;
+    turns[static_cast<std::size_t>(pair_axis_)] = pair.first;
+    turns[static_cast<std::size_t>(pair_axis_) + 1] = pair.second;
+    for (int axis = 0; axis < 6; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      solution.q[static_cast<std::size_t>(jointOf(axis))] = sense_[i] * turns[i].angle();
+    }
+    const auto keepFree = [&](bool free, int axis) {
+      if (!free) return;
+      solution.free |= bitOf(axis);
+      solution.q[static_cast<std::size_t>(jointOf(axis))] = question.preferred[jointOf(axis)];
+    };
+    keepFree(root.free, single_axis_);
+    keepFree(pair.first_free, pair_axis_);
+    keepFree(pair.second_free, pair_axis_ + 1);
+    keepFree(plane.free, first_parallel_);
+    solution.sign = {root.sign, plane.sign, pair.sign};
+    if (pair.clamped || plane.clamped) solutions.clamped |= 1U << solutions.count;
+    solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solution;
+  }
+}
+
+void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSolutions& solutions) const {
+  solutions.count = 0;
+  solutions.open = 0;
+  solutions.clamped = 0;
+  const Question question = questionOf(target, preferred);
+  const Roots roots = singleRoots(question);
+  for (int i = 0; i < roots.count; ++i) solvePair(question, roots.roots[static_cast<std::size_t>(i)], solutions);
+}
+
+std::vector<double> ParallelPlan::extremes(const Pose& target, const double* preferred, int joint) const {
+  std::vector<double> values;
+  const Question question = questionOf(target, preferred);
+  const Roots roots = singleRoots(question);
+  const bool is_first = jointOf(pair_axis_) == joint;
+  for (int i = 0; i < roots.count; ++i) {
+    const Root& root = roots.roots[static_cast<std::size_t>(i)];
+    Vector3 start;
+    Vector3 goal;
+    directions(question, root.turn, start, goal);
+    DirectionSolutions pairs;
+    pair_->solve(start, goal, 0.0, Turn(), Turn(), pairs);
+    if (pairs.count == 0 || !(is_first ? pairs.begin()->first_free : pairs.begin()->second_free)) continue;
+    // The place runs on a circle: a + b e^(+-i angle), known from a half and a quarter turn.
+    std::array<Turn, 3> places;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Turn turn = Turn::of(0.5 * kPi * static_cast<double>(k));
+      Turn heading;
+      placeOf(question, root.turn, is_first ? turn : pairs.begin()->first, is_first ? pairs.begin()->second : turn,
+              places[k], heading);
+    }
+    const Turn middle{0.5 * (places[0].c + places[2].c), 0.5 * (places[0].s + places[2].s)};
+    // |place|^2 = constant + 2 (along cos(angle) + across sin(angle))
+    const double along = middle.c * (places[0].c - middle.c) + middle.s * (places[0].s - middle.s);
+    const double across = middle.c * (places[1].c - middle.c) + middle.s * (places[1].s - middle.s);
+    if (std::hypot(along, across) <= kNegligible * length_ * length_) continue;
+    // Both ways alike but for the sense in which the joint is counted.
+    const double sense = sense_[static_cast<std::size_t>(is_first ? pair_axis_ : pair_axis_ + 1)];
+    values.push_back(sense * std::atan2(across, along));
+    values.push_back(sense * std::atan2(-across, -along));
+  }
+  return values;
+}
+
+std::array<int, 3> ParallelPlan::signsAt(const Pose& target, const double* q) const {
+  const Question question = questionOf(target, q);
+  const auto signOfValue = [](double value) { return (value > 0.0) - (value < 0.0); };
+  std::array<int, 3> signs{};
+  const Turn single = preferredTurn(question, single_axis_);
+  const Roots roots = singleRoots(question);
+  double nearest = -2.0;
+  for (int i = 0; i < roots.count; ++i) {
+    const Root& root = roots.roots[static_cast<std::size_t>(i)];
+    const double alike = (root.turn * single.inverse()).c;
+    if (alike <= nearest) continue;
+    nearest = alike;
+    signs[0] = root.sign;
+  }
+  signs[1] = signOfValue(plane_->elbowSine(preferredTurn(question, first_parallel_ + 1)));
+  Vector3 start;
+  Vector3 goal;
+  directions(question, single, start, goal);
+  const auto i = static_cast<std::size_t>(pair_axis_);
+  const Vector3 between = turned(direction_[i], preferredTurn(question, pair_axis_).inverse(), goal);
+  signs[2] = signOfValue(direction_[i].cross(direction_[i + 1]).dot(between));
+  return signs;
+}
+
+bool ParallelPlan::isDouble(const PlanSolution& solution) const {
+  return std::any_of(solution.sign.begin(), solution.sign.end(), [](int sign) { return sign == 0; });
+}
+
+std::string ParallelPlan::branchName(const PlanSolution& solution) const {
+  std::string name;
+  for (const BranchPart& part : parts_) {
+    int sign = part.orientation;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (part.signs[i]) sign *= solution.sign[i];
+    }
+    name += (name.empty() ? "" : ", ") + (sign > 0 ? part.positive : sign < 0 ? part.negative : part.neutral);
+  }
+  return name;
+}
+
+}  // namespace screwline

@@ -1,0 +1,155 @@
+#include "parallel_candidates.h"
+
+#include <algorithm>
+
+#include "screwline/ik/numerical/numerical_solver.h"
+#include "solution_loop.h"
+
+namespace screwline {
+namespace {
+
+using Signs = std::array<int, 3>;
+
+VectorX vectorOf(const PlanSolution& solution) {
+  return Eigen::Map<const VectorX>(solution.q.data(), 6);
+}
+
+/// Gathers candidates, and which branches they stand for: a sign that is 0 stands for both.
+class Gathering {
+ public:
+  Gathering(const ParallelMethod& method, const SerialChain& chain, const Pose& target, const VectorX& seed)
+      : method_(method), chain_(chain), target_(target), seed_(seed) {}
+
+  void addIsolated(const PlanSolution& solution, const VectorX& q) {
+    Candidate candidate;
+    candidate.q = q;
+    candidate.branch = method_.plan.branchName(solution);
+    candidate.merged = method_.plan.isDouble(solution);
+    add(std::move(candidate), solution.sign);
+  }
+
+  void addLoop(const SolutionLoop& loop) {
+    Candidate candidate;
+    PlanSolution named;
+    named.sign = loop.sign();
+    candidate.q = loop.at(0.0, seed_);
+    candidate.branch = method_.plan.branchName(named);
+    candidate.merged = true;
+    candidate.free = {loop.joint()};
+    candidate.describe = [loop](const VectorX& seed, bool ignore_limits) { return loop.describe(seed, ignore_limits); };
+    add(std::move(candidate), named.sign);
+  }
+
+  /// Members with more than one free joint, where no loop describes them.
+  void addSheet(const PlanSolution& solution) {
+    Candidate candidate;
+    candidate.q = vectorOf(solution);
+    candidate.branch = method_.plan.branchName(solution);
+    candidate.merged = true;
+    for (int i = 0; i < 6; ++i) {
+      if ((solution.free >> i & 1U) != 0U) candidate.free.push_back(i);
+    }
+    const ParallelPlan* plan = &method_.plan;
+    const Pose target = target_;
+    candidate.member = [plan, target, solution](const VectorX& preferred, VectorX& q) {
+      ParallelSolutions solutions;
+      plan->solve(target, preferred.data(), solutions);
+      for (const PlanSolution& one : solutions) {
+        if (one.free != solution.free || one.sign != solution.sign) continue;
+        q = vectorOf(one);
+        return true;
+      }
+      return false;
+    };
+    add(std::move(candidate), solution.sign);
+  }
+
+  bool covers(const Signs& signs) const {
+    return std::any_of(signs_.begin(), signs_.end(), [&](const Signs& known) {
+      bool same = true;
+      for (std::size_t i = 0; i < 3; ++i) same = same && (known[i] == 0 || signs[i] == 0 || known[i] == signs[i]);
+      return same;
+    });
+  }
+
+  std::vector<Candidate> take() { return std::move(candidates_); }
+
+ private:
+  void add(Candidate candidate, const Signs& signs) {
+    candidates_.push_back(std::move(candidate));
+    signs_.push_back(signs);
+  }
+
+  const ParallelMethod& method_;
+  const SerialChain& chain_;
+  const Pose& target_;
+  const VectorX& seed_;
+  std::vector<Candidate> candidates_;
+  std::vector<Signs> signs_;
+};
+
+void addContinua(const ParallelMethod& method, const SerialChain& chain, const Pose& target, const VectorX& seed,
+                 const ParallelSolutions& solutions, Gathering& gathering) {
+  bool any = false;
+  for (int joint = 0; joint < 6; ++joint) {
+    if ((solutions.open >> joint & 1U) == 0U) continue;
+    std::vector<PlanSolution> points;
+    for (const SolutionLoop& loop : solutionLoops(method.plan, chain, target, seed, joint, points)) {
+      gathering.addLoop(loop);
+      any = true;
+    }
+    for (const PlanSolution& point : points) gathering.addIsolated(point, vectorOf(point));
+  }
+  for (const PlanSolution& solution : solutions) {
+    if ((solution.free & (solution.free - 1U)) != 0U && !any) gathering.addSheet(solution);
+  }
+}
+
+}  // namespace
+
+std::optional<ParallelMethod> parallelMethodFor(const SerialChain& chain, const Task& task) {
+  if (task.size() != 6 || task.rotationCount() != 3) return std::nullopt;
+  std::optional<ParallelPlan> plan = ParallelPlan::compile(chain);
+  if (!plan) return std::nullopt;
+  return ParallelMethod{*plan, AlgebraicSolver::compile(chain)};
+}
+
+ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain& chain, const Pose& target,
+                                const VectorX& seed, bool eliminate) {
+  ParallelSolutions solutions;
+  method.plan.solve(target, seed.data(), solutions);
+  Gathering gathering(method, chain, target, seed);
+  bool refuted = false;
+  for (int k = 0; k < solutions.count; ++k) {
+    const PlanSolution& solution = solutions.solutions[static_cast<std::size_t>(k)];
+    if (solution.free != 0) continue;
+    VectorX q = vectorOf(solution);
+    if ((solutions.clamped >> k & 1U) != 0U) {
+      const TaskError error = polish(chain, Task(), target, q);
+      if (!(error.position <= kSolutionTolerance) || !(error.orientation <= kSolutionTolerance)) {
+        refuted = true;
+        continue;
+      }
+    }
+    gathering.addIsolated(solution, q);
+  }
+  if (solutions.open != 0) addContinua(method, chain, target, seed, solutions, gathering);
+  ParallelCandidates result;
+  result.complete = !refuted && !eliminate;
+  if ((solutions.clamped != 0 || eliminate) && method.algebraic) {
+    AlgebraicSolutions roots;
+    method.algebraic->solve(target, roots);
+    result.eliminated = true;
+    result.complete = result.complete || roots.complete;
+    for (const std::array<double, 6>& root : roots) {
+      PlanSolution solution;
+      solution.q = root;
+      solution.sign = method.plan.signsAt(target, root.data());
+      if (!gathering.covers(solution.sign)) gathering.addIsolated(solution, vectorOf(solution));
+    }
+  }
+  result.found = gathering.take();
+  return result;
+}
+
+}  // namespace screwline

@@ -1,0 +1,307 @@
+#include "solution_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "screwline/spatial/rotation.h"
+#include "turns.h"
+
+namespace screwline {
+namespace {
+
+constexpr int kSamples = 180;         // Of the free joint's turn, where branches are looked for.
+constexpr int kArcSamples = 64;       // Of each arc, where the nearest member is looked for.
+constexpr double kPoint = 1e-9;       // [rad] An arc that is shorter is a point.
+constexpr double kSameEnd = 1e-5;     // [rad] Ends of arcs are folds, known to the square root of rounding.
+constexpr double kDifference = 1e-5;  // Of the way round, for tangents.
+constexpr double kMoves = 1e-7;       // A joint whose share of the tangent is below does not move.
+constexpr double kLimitBand = 1e-9;
+constexpr double kGolden = 0.61803398874989485;
+
+VectorX vectorOf(const PlanSolution& solution) {
+  return Eigen::Map<const VectorX>(solution.q.data(), 6);
+}
+
+/// Solutions with only `joint` free and set to `value`.
+class Sheets {
+ public:
+  Sheets(const ParallelPlan& plan, const Pose& target, const VectorX& seed, int joint)
+      : plan_(plan), target_(target), preferred_(seed), joint_(joint) {}
+
+  const std::vector<PlanSolution>& at(double value) {
+    preferred_[joint_] = value;
+    ParallelSolutions solutions;
+    plan_.solve(target_, preferred_.data(), solutions);
+    found_.clear();
+    for (int k = 0; k < solutions.count; ++k) {
+      const PlanSolution& solution = solutions.solutions[static_cast<std::size_t>(k)];
+      const bool clamped = (solutions.clamped >> k & 1U) != 0U;
+      if (solution.free == 1U << joint_ && !clamped) found_.push_back(solution);
+    }
+    return found_;
+  }
+
+  bool exists(double value, const std::array<int, 3>& sign, PlanSolution& solution) {
+    for (const PlanSolution& one : at(value)) {
+      if (one.sign != sign) continue;
+      solution = one;
+      return true;
+    }
+    return false;
+  }
+
+  /// The last value towards `outside` where the branch exists.
+  double end(double inside, double outside, const std::array<int, 3>& sign) {
+    PlanSolution solution;
+    for (int i = 0; i < 60 && inside != outside; ++i) {
+      const double middle = 0.5 * (inside + outside);
+      if (middle == inside || middle == outside) break;
+      (exists(middle, sign, solution) ? inside : outside) = middle;
+    }
+    return inside;
+  }
+
+ private:
+  const ParallelPlan& plan_;
+  Pose target_;
+  VectorX preferred_;
+  int joint_;
+  std::vector<PlanSolution> found_;
+};
+
+std::vector<double> sampledValues(const ParallelPlan& plan, const Pose& target, const VectorX& seed, int joint) {
+  std::vector<double> values;
+  const double first = wrapAngle(seed[joint]);
+  for (int i = 0; i < kSamples; ++i) values.push_back(wrapAngle(first + kTwoPi * i / kSamples));
+  for (double value : plan.extremes(target, seed.data(), joint)) values.push_back(wrapAngle(value));
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/// Runs of neighbouring samples that have the branch, their ends refined.
+std::vector<LoopArc> arcsOf(Sheets& sheets, const std::vector<double>& values, const std::vector<bool>& present,
+                            const std::array<int, 3>& sign) {
+  std::vector<LoopArc> arcs;
+  const std::size_t count = values.size();
+  const auto absent = std::find(present.begin(), present.end(), false);
+  if (absent == present.end()) return {{values.front(), values.front() + kTwoPi, sign}};
+  const auto start = static_cast<std::size_t>(absent - present.begin());
+  const auto valueAt = [&](std::size_t i) { return values[i % count] + (i >= count ? kTwoPi : 0.0); };
+  for (std::size_t i = start; i < start + count; ++i) {
+    if (present[i % count] || !present[(i + 1) % count]) continue;
+    std::size_t last = i + 1;
+    while (present[(last + 1) % count]) ++last;
+    arcs.push_back(
+        {sheets.end(valueAt(i + 1), valueAt(i), sign), sheets.end(valueAt(last), valueAt(last + 1), sign), sign});
+    i = last;
+  }
+  return arcs;
+}
+
+/// Arcs put end to end where they meet.
+std::vector<std::vector<LoopArc>> chained(Sheets& sheets, const SerialChain& chain, std::vector<LoopArc> arcs) {
+  const auto endOf = [&](const LoopArc& arc, double value) {
+    PlanSolution solution;
+    sheets.exists(value, arc.sign, solution);
+    return vectorOf(solution);
+  };
+  std::vector<std::vector<LoopArc>> loops;
+  while (!arcs.empty()) {
+    std::vector<LoopArc> loop = {arcs.back()};
+    arcs.pop_back();
+    for (bool grown = std::abs(loop.front().to - loop.front().from) < kTwoPi - kPoint; grown;) {
+      grown = false;
+      const VectorX open = endOf(loop.back(), loop.back().to);
+      for (std::size_t i = 0; i < arcs.size() && !grown; ++i) {
+        LoopArc next = arcs[i];
+        if (largestDifference(chain, endOf(next, next.from), open) > kSameEnd) std::swap(next.from, next.to);
+        if (largestDifference(chain, endOf(next, next.from), open) > kSameEnd) continue;
+        loop.push_back(next);
+        arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(i));
+        grown = true;
+      }
+    }
+    loops.push_back(loop);
+  }
+  return loops;
+}
+
+}  // namespace
+
+std::vector<SolutionLoop> solutionLoops(const ParallelPlan& plan, const SerialChain& chain, const Pose& target,
+                                        const VectorX& seed, int joint, std::vector<PlanSolution>& points) {
+  Sheets sheets(plan, target, seed, joint);
+  const std::vector<double> values = sampledValues(plan, target, seed, joint);
+  std::vector<std::pair<std::array<int, 3>, std::vector<bool>>> presence;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (const PlanSolution& solution : sheets.at(values[i])) {
+      auto known = std::find_if(presence.begin(), presence.end(),
+                                [&](const auto& entry) { return entry.first == solution.sign; });
+      if (known == presence.end())
+        known = presence.insert(presence.end(), {solution.sign, std::vector<bool>(values.size(), false)});
+      known->second[i] = true;
+    }
+  }
+  std::vector<LoopArc> arcs;
+  std::vector<PlanSolution> single;
+  for (const auto& [sign, present] : presence) {
+    for (const LoopArc& arc : arcsOf(sheets, values, present, sign)) {
+      PlanSolution point;
+      if (arc.to - arc.from > kPoint) {
+        arcs.push_back(arc);
+      } else if (sheets.exists(arc.from, sign, point)) {
+        single.push_back(point);
+      }
+    }
+  }
+  std::vector<SolutionLoop> loops;
+  for (std::vector<LoopArc>& loop : chained(sheets, chain, arcs))
+    loops.emplace_back(plan, chain, target, joint, std::move(loop));
+  // A fold that was hit exactly is no solution of its own.
+  for (PlanSolution& point : single) {
+    const VectorX q = vectorOf(point);
+    const bool is_fold = std::any_of(arcs.begin(), arcs.end(), [&](const LoopArc& arc) {
+      PlanSolution end;
+      return (sheets.exists(arc.from, arc.sign, end) && largestDifference(chain, vectorOf(end), q) <= kSameEnd) ||
+             (sheets.exists(arc.to, arc.sign, end) && largestDifference(chain, vectorOf(end), q) <= kSameEnd);
+    });
+    point.free = 0;
+    if (!is_fold) points.push_back(point);
+  }
+  return loops;
+}
+
+SolutionLoop::SolutionLoop(const ParallelPlan& plan, const SerialChain& chain, const Pose& target, int joint,
+                           std::vector<LoopArc> arcs)
+    : plan_(&plan), chain_(&chain), target_(target), joint_(joint), arcs_(std::move(arcs)) {}
+
+std::array<int, 3> SolutionLoop::sign() const {
+  std::array<int, 3> sign = arcs_.front().sign;
+  for (const LoopArc& arc : arcs_) {
+    for (std::size_t i = 0; i < 3; ++i) sign[i] = arc.sign[i] == sign[i] ? sign[i] : 0;
+  }
+  return sign;
+}
+
+VectorX SolutionLoop::at(double u, const VectorX& near) const {
+  const double way = (u - std::floor(u)) * static_cast<double>(arcs_.size());
+  const auto index = std::min(static_cast<std::size_t>(way), arcs_.size() - 1);
+  const LoopArc& arc = arcs_[index];
+  const double share = way - static_cast<double>(index);
+  // Towards a fold the branches meet as a square root does; by the cosine the way runs through it evenly.
+  const double value = arcs_.size() == 1 && std::abs(arc.to - arc.from) > kTwoPi - kPoint
+                           ? arc.from + share * (arc.to - arc.from)
+                           : 0.5 * (arc.from + arc.to) + 0.5 * (arc.from - arc.to) * std::cos(kPi * share);
+  Sheets sheets(*plan_, target_, near, joint_);
+  PlanSolution solution;
+  if (!sheets.exists(value, arc.sign, solution)) {
+    // In a fold itself the branch has its neutral sign.
+    double least = std::numeric_limits<double>::infinity();
+    for (const PlanSolution& one : sheets.at(value)) {
+      const double distance = largestDifference(*chain_, vectorOf(one), near);
+      if (distance >= least) continue;
+      least = distance;
+      solution = one;
+    }
+    if (!std::isfinite(least)) return near;
+  }
+  return nearestTurns(*chain_, vectorOf(solution), near);
+}
+
+Continuum SolutionLoop::describe(const VectorX& seed, bool ignore_limits) const {
+  const int count = kArcSamples * static_cast<int>(arcs_.size());
+  const auto distanceAt = [&](double u, bool honour) {
+    const Turned turned = chooseTurns(*chain_, at(u, seed), seed, true, !honour, kLimitBand);
+    if (honour && !turned.within_limits) return std::numeric_limits<double>::infinity();
+    return (turned.q - seed).norm();
+  };
+  double best = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  bool honour = !ignore_limits;
+  for (int pass = 0; pass < 2 && !std::isfinite(least); ++pass, honour = false) {
+    for (int i = 0; i < count; ++i) {
+      const double distance = distanceAt(static_cast<double>(i) / count, honour);
+      if (distance >= least) continue;
+      least = distance;
+      best = static_cast<double>(i) / count;
+    }
+    if (!std::isfinite(least)) continue;
+    double low = best - 1.0 / count;
+    double high = best + 1.0 / count;
+    while (high - low > 1e-11) {
+      const double a = high - kGolden * (high - low);
+      const double b = low + kGolden * (high - low);
+      const double at_a = distanceAt(a, honour);
+      const double at_b = distanceAt(b, honour);
+      // Where both are beyond a limit the way back is towards what was within.
+      const bool lower = std::isfinite(at_a) || std::isfinite(at_b) ? at_a <= at_b : best < a;
+      (lower ? high : low) = lower ? b : a;
+    }
+    const double refined = 0.5 * (low + high);
+    if (distanceAt(refined, honour) <= least) best = refined;
+    break;
+  }
+  Continuum continuum;
+  continuum.nearest = chooseTurns(*chain_, at(best, seed), seed, true, ignore_limits, kLimitBand).q;
+  const VectorX ahead = at(best + kDifference, continuum.nearest);
+  const VectorX behind = at(best - kDifference, continuum.nearest);
+  continuum.directions = (ahead - behind).normalized().transpose();
+  std::vector<double> us;
+  for (int i = 0; i <= count; ++i) us.push_back(best + static_cast<double>(i) / count);
+  widen(us, continuum.nearest, ignore_limits, continuum);
+  return continuum;
+}
+
+/// Ranges of the joints, from the nearest member both ways until a limit is met.
+void SolutionLoop::widen(const std::vector<double>& us, const VectorX& nearest, bool ignore_limits,
+                         Continuum& continuum) const {
+  VectorX lower = nearest;
+  VectorX upper = nearest;
+  const auto isInside = [&](const VectorX& q) {
+    if (ignore_limits) return true;
+    for (int i = 0; i < 6; ++i) {
+      const JointLimits& limits = chain_->joint(i).limits;
+      if (q[i] < limits.lower - kLimitBand || q[i] > limits.upper + kLimitBand) return false;
+    }
+    return true;
+  };
+  for (int way : {1, -1}) {
+    VectorX inside = nearest;
+    double u = us.front();
+    for (std::size_t i = 1; i < us.size(); ++i) {
+      const double next_u = us.front() + way * (us[i] - us.front());
+      const VectorX next = at(next_u, inside);
+      if (isInside(next)) {
+        inside = next;
+        u = next_u;
+        lower = lower.cwiseMin(inside);
+        upper = upper.cwiseMax(inside);
+        continue;
+      }
+      double outside = next_u;
+      while (std::abs(outside - u) > 1e-12) {
+        const VectorX middle = at(0.5 * (u + outside), inside);
+        const bool good = isInside(middle);
+        (good ? u : outside) = 0.5 * (u + outside);
+        if (good) inside = middle;
+      }
+      lower = lower.cwiseMin(inside);
+      upper = upper.cwiseMax(inside);
+      break;
+    }
+  }
+  for (int i = 0; i < 6; ++i) {
+    if (upper[i] - lower[i] <= kMoves) continue;
+    const JointLimits& limits = chain_->joint(i).limits;
+    continuum.free_joints.push_back(i);
+    const auto size = static_cast<Eigen::Index>(continuum.free_joints.size());
+    continuum.lower.conservativeResize(size);
+    continuum.upper.conservativeResize(size);
+    continuum.lower[size - 1] = ignore_limits ? lower[i] : std::max(lower[i], limits.lower);
+    continuum.upper[size - 1] = ignore_limits ? upper[i] : std::min(upper[i], limits.upper);
+  }
+}
+
+}  // namespace screwline
