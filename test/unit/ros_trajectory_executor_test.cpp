@@ -36,7 +36,7 @@ struct Stream {
   std::vector<Sent> sent;
   MotionExecutor executor;
 
-  explicit Stream(double rate = kRate) : executor(pair(0.0, 0.0), rate, clock.clock(), recorderInto(sent)) {}
+  explicit Stream(double rate = kRate) : executor(pair(0.0, 0.0), rate, limits(), clock.clock(), recorderInto(sent)) {}
 
   void run(int steps) {
     for (int i = 0; i < steps; ++i) ASSERT_TRUE(executor.step());
@@ -265,7 +265,7 @@ TEST(MotionExecutor, StreamsFromAThreadOfItsOwn) {
   std::vector<Sent> sent;
   sent.reserve(10000);
   {
-    MotionExecutor executor(pair(0, 0), 1000.0, wallMotionClock(), recorderInto(sent));
+    MotionExecutor executor(pair(0, 0), 1000.0, limits(), wallMotionClock(), recorderInto(sent));
     executor.start();
     const auto started = executor.replace(
         [](const MotionState& present) { return startFrom(present, move(pair(0, 0), pair(0.1, 0.1), 0.3), limits()); });
