@@ -168,9 +168,10 @@ bool quickestRamp(const BoundedPath& path, const EndState& state, double rate, J
   double share = kShares[0];
   for (std::size_t i = 0; share > least; ++i) {
     share = i < 3 ? kShares[i] : 0.8 * share;
-    const AxisLimits limits =
-        AxisLimits::symmetric(AxisLimits::kNone, std::min(share * scale.acceleration.upper, kMostChange),
-                              std::min(share * scale.jerk.upper, kMostBend));
+    const double change =
+        std::max(std::min(share * scale.acceleration.upper, kMostChange), std::abs(state.acceleration));
+    const double bend = std::min(share * scale.jerk.upper, kMostBend);
+    const AxisLimits limits = AxisLimits::symmetric(AxisLimits::kNone, change, bend);
     ramp.start = state;
     ramp.count = 0;
     appendChange(state, rate, limits, ramp);
