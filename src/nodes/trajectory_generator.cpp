@@ -35,7 +35,7 @@ void generate(ros::NodeHandle& private_node) {
   const ServedRobot robot = makeRobot(findRobot(private_node), params.robot);
   const MotionClock clock = ros::Time::isSimTime() ? rosMotionClock() : wallMotionClock();
   TrajectoryGenerator generator(robot, params, tfLookup(robot.chain->baseLink()), clock, publishers(node));
-  generator.advertise(private_node);
+  generator.advertise(private_node, node);
   generator.executor().start();
 
   ros::AsyncSpinner spinner = makeSpinner(params.threads);

@@ -1,8 +1,12 @@
 #include "screwline/ros/motion.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "screwline/exception.h"
+#include "screwline/trajectory/state_to_state.h"
+#include "screwline/trajectory/verify.h"
 
 namespace screwline {
 namespace ros_bridge {
@@ -20,10 +24,38 @@ VectorX endOf(const JointTrajectory& trajectory) {
   return point.position;
 }
 
+/// Position bounds as given trajectories are held to them: a place that is only rounded past a bound is in reach.
+Limits roomy(Limits limits) {
+  limits.lower.array() -= kSamePlace;
+  limits.upper.array() += kSamePlace;
+  return limits;
+}
+
+/// What the limits are where the state itself is beyond them: it is brought back, and until then exceeds them.
+Limits widenedTo(const JointTrajectory& lead, const MotionState& present, Limits limits) {
+  for (int j = 0; j < limits.joints(); ++j) {
+    const EndState start{present.position[j], present.velocity[j], present.acceleration[j]};
+    if (checkState(start, axisLimits(limits, j), true).fault == StateFault::kNone) continue;
+    const JointExtrema extrema = lead.extrema(j);
+    limits.velocity[j] = std::max(limits.velocity[j], extrema.velocity);
+    limits.acceleration[j] = std::max(limits.acceleration[j], std::abs(present.acceleration[j]));
+  }
+  return limits;
+}
+
+JointTrajectory bridge(const MotionState& present, const MotionState& goal, const Limits& limits) {
+  const Limits bounds = roomy(limits);
+  JointTrajectory lead = timeOptimalBridge(present, goal, bounds);
+  const auto broken = verifyTrajectory(lead, widenedTo(lead, present, bounds),
+                                       {{0.0, present.position}, {lead.duration(), goal.position}});
+  if (broken) throw Exception("internal error: the way from the present state failed its check: " + *broken);
+  return lead;
+}
+
 /// The lead, or none where the limits allow none.
 std::optional<JointTrajectory> leadTo(const MotionState& goal, const MotionState& present, const Limits& limits) {
   try {
-    return bridgeTrajectory(present, goal, limits);
+    return bridge(present, goal, limits);
   } catch (const InputError& error) {
     if (error.code() != AnswerCode::kLimitsInfeasible) throw;
     return std::nullopt;
@@ -49,6 +81,11 @@ void Motion::sample(double t, TrajectoryPoint& point) const {
   } else {
     main_.sample(t < duration() ? t - lead_.duration() : main_.duration(), point);
   }
+}
+
+void Motion::sample(const PathInstant& instant, TrajectoryPoint& point) const {
+  sample(instant.time, point);
+  pace(instant, point);
 }
 
 std::optional<double> Motion::tau(double t) const {
@@ -77,7 +114,7 @@ Motion startFrom(const MotionState& present, const JointTrajectory& main, const 
     const MotionState moving{first.position, first.velocity, first.acceleration};
     if (const auto lead = leadTo(moving, present, limits)) return {*lead, main};
   }
-  return {bridgeTrajectory(present, stateAtRest(first.position), limits), main};
+  return {bridge(present, stateAtRest(first.position), limits), main};
 }
 
 JointTrajectory stopFrom(const MotionState& present, const Limits& limits) {

@@ -4,32 +4,27 @@
 #include <cmath>
 #include <utility>
 
-#include "screwline/exception.h"
+#include "motion_instants.h"
 
 namespace screwline {
 namespace ros_bridge {
 namespace {
 
-constexpr Nanoseconds kSameInstant = 1000;                          // An end so near to a period's is there.
-constexpr Nanoseconds kMostCaughtUp = kNanosecondsPerSecond;        // Later than that, samples are skipped.
-constexpr Nanoseconds kSetBack = kNanosecondsPerSecond;             // A clock set back by more is followed.
-constexpr Nanoseconds kFirstNotice = kNanosecondsPerSecond / 1000;  // From a replacement to its start,
-constexpr Nanoseconds kLongestNotice = 2 * kNanosecondsPerSecond;   // tried up to this
-constexpr Nanoseconds kNoticeGrowth = 4;                            // in such steps.
-
-double secondsOf(Nanoseconds span) {
-  return static_cast<double>(span) / static_cast<double>(kNanosecondsPerSecond);
-}
-
-Nanoseconds nanosecondsOf(double seconds) {
-  return static_cast<Nanoseconds>(std::llround(seconds * static_cast<double>(kNanosecondsPerSecond)));
-}
+constexpr Nanoseconds kSameInstant = 1000;                    // An end so near to a period's is there.
+constexpr Nanoseconds kMostCaughtUp = kNanosecondsPerSecond;  // Later than that, samples are skipped.
+constexpr Nanoseconds kSetBack = kNanosecondsPerSecond;       // A clock set back by more is followed.
 
 }  // namespace
 
-MotionExecutor::MotionExecutor(const VectorX& initial_position, double rate, MotionClock clock, StreamSink sink)
-    : rate_(rate), clock_(std::move(clock)), sink_(std::move(sink)), point_(static_cast<int>(initial_position.size())) {
+MotionExecutor::MotionExecutor(const VectorX& initial_position, double rate, Limits limits, MotionClock clock,
+                               StreamSink sink)
+    : rate_(rate),
+      limits_(std::move(limits)),
+      clock_(std::move(clock)),
+      sink_(std::move(sink)),
+      point_(static_cast<int>(initial_position.size())) {
   active_.motion = std::make_shared<const Motion>(Motion::resting(initial_position));
+  active_.clock = std::make_shared<const PathClock>();
 }
 
 MotionExecutor::~MotionExecutor() {
@@ -61,8 +56,7 @@ std::int64_t MotionExecutor::firstTickAt(Nanoseconds instant) const {
 MotionState MotionExecutor::stateAt(Nanoseconds instant) const {
   const Active& active = next_ && instant >= next_->start ? *next_ : active_;
   TrajectoryPoint point(active.motion->main().joints());
-  const double t = secondsOf(instant - active.start);
-  active.motion->sample(t, point);
+  active.motion->sample(active.clock->at(secondsOf(instant - active.start)), point);
   if (instant < active.end) return {point.position, point.velocity, point.acceleration};
   return {point.position, VectorX::Zero(point.position.size()), VectorX::Zero(point.position.size())};
 }
@@ -71,6 +65,14 @@ MotionState MotionExecutor::state() const {
   const Nanoseconds now = clock_.now();
   const std::lock_guard<std::mutex> lock(mutex_);
   return stateAt(now);
+}
+
+std::optional<MotionState> MotionExecutor::stateInMotion(Nanoseconds instant) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (over_ || instant < active_.start || instant > active_.end || (next_ && instant >= next_->start)) {
+    return std::nullopt;
+  }
+  return stateAt(instant);
 }
 
 MotionExecutor::Event MotionExecutor::nextEvent() const {
@@ -94,7 +96,9 @@ void MotionExecutor::followClock(Nanoseconds now) {
   }
   if (now - gridInstant(tick_) > kMostCaughtUp) {
     const Nanoseconds until = next_ ? std::min(now, next_->start) : now;
-    tick_ = std::max(tick_, firstTickAt(until));
+    const std::int64_t tick = std::max(tick_, firstTickAt(until));
+    skipped_ += tick - tick_;
+    tick_ = tick;
   }
 }
 
@@ -118,9 +122,9 @@ bool MotionExecutor::waitForEvent() {
 
 bool MotionExecutor::step() {
   if (!waitForEvent()) return false;
-  std::shared_ptr<const Motion> motion;
+  Active active;
   StreamSample sample;
-  double t = 0.0;
+  PathInstant instant;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const Event event = nextEvent();
@@ -128,48 +132,28 @@ bool MotionExecutor::step() {
       active_ = std::move(*next_);
       next_.reset();
     }
-    motion = active_.motion;
+    active = active_;
+    sample.first = event.start;
     sample.held = over_ && !event.start;
     over_ = event.start ? active_.end <= event.stamp + kSameInstant : over_ || event.end;
-    t = event.end || sample.held ? motion->duration() : secondsOf(event.stamp - active_.start);
+    sample.last = over_ && !sample.held;
+    instant = active.clock->at(secondsOf(event.stamp - active.start));
+    if (event.end || sample.held) instant.time = active.motion->duration();
     if (event.grid) ++tick_;
     last_stamp_ = sample.stamp = event.stamp;
+    std::swap(sample.skipped, skipped_);
   }
-  motion->sample(t, point_);
+  active.motion->sample(instant, point_);
   if (sample.held) {
     for (VectorX* derivative : {&point_.velocity, &point_.acceleration, &point_.jerk}) derivative->setZero();
   }
   sample.state = &point_;
-  const std::optional<double> tau = motion->tau(t);
-  if (tau) sample.scaling = motion->main().scaling();
+  const std::optional<double> tau = active.motion->tau(instant.time);
+  if (tau) sample.scaling = active.motion->main().scaling();
   sample.tau = tau.value_or(0.0);
+  sample.sent = clock_.now();
   sink_(sample);
   return true;
-}
-
-MotionExecutor::Started MotionExecutor::replace(const MotionMaker& make) {
-  const std::lock_guard<std::mutex> one_at_a_time(replacing_);
-  for (Nanoseconds notice = kFirstNotice; notice <= kLongestNotice; notice *= kNoticeGrowth) {
-    Nanoseconds start = 0;
-    MotionState present;
-    {
-      const Nanoseconds now = clock_.now();
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (now <= 0) throw InputError(AnswerCode::kFailure, "time does not run: nobody publishes /clock");
-      followClock(now);
-      start = gridInstant(std::max(tick_, firstTickAt(now + notice)));
-      present = stateAt(start);
-    }
-    Active next;
-    next.motion = std::make_shared<const Motion>(make(present));
-    next.start = start;
-    next.end = start + nanosecondsOf(next.motion->duration());
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (gridInstant(tick_) > start) continue;
-    next_ = next;
-    return {start, next.motion};
-  }
-  throw InputError(AnswerCode::kFailure, "the way from the present state was not found before it was past");
 }
 
 }  // namespace ros_bridge

@@ -56,8 +56,10 @@ std::string TrajectoryGenerator::announce(const MotionExecutor::Started& started
   message.header.stamp.fromNSec(static_cast<std::uint64_t>(started.stamp));
   sinks_.trajectory(message);
   const double lead = started.motion->lead().duration();
-  if (lead == 0.0) return "";
-  return "begins with " + numberText(lead) + " s from the present state to the first point";
+  const std::string pace = paceNote();
+  if (lead == 0.0) return pace;
+  return "begins with " + numberText(lead) + " s from the present state to the first point" +
+         (pace.empty() ? "" : "; " + pace);
 }
 
 Outcome TrajectoryGenerator::executePlanned(const PlannedMotion& planned) {
@@ -94,6 +96,14 @@ Outcome TrajectoryGenerator::executeGiven(const trajectory_msgs::JointTrajectory
   return {AnswerCode::kSuccess, message};
 }
 
+/// What to know of a motion that is about to start.
+std::string TrajectoryGenerator::paceNote() const {
+  if (executor_.paused()) return "paused: it starts at ~resume";
+  const double speed = executor_.speed();
+  if (speed == 0.0) return std::string("it waits for a ") + kSpeedTopic + " above 0";
+  return speed < 1.0 ? "at " + numberText(speed) + " of its speed" : "";
+}
+
 Outcome TrajectoryGenerator::execute(const ExecuteTrajectory::Request& request, ExecuteTrajectory::Response&) {
   const std::lock_guard<std::mutex> lock(executing_);
   if (!request.trajectory.points.empty()) return executeGiven(request.trajectory);
@@ -104,13 +114,42 @@ Outcome TrajectoryGenerator::execute(const ExecuteTrajectory::Request& request, 
 
 Outcome TrajectoryGenerator::stop() {
   const std::lock_guard<std::mutex> lock(executing_);
-  const auto started =
-      executor_.replace([&](const MotionState& present) { return Motion(stopFrom(present, limits_)); });
+  const auto started = executor_.replace([&](const MotionState& present) { return Motion(stopFrom(present, limits_)); },
+                                         MotionExecutor::Pace::kRealTime);
   const double duration = started.motion->duration();
   if (duration == 0.0) return {AnswerCode::kSuccess, "the robot is at rest"};
   std::string message = "at rest in " + numberText(duration) + " s";
   if (!keepsPositions(started.motion->main(), limits_)) message += ", past a position limit: it was too near to brake";
   return {AnswerCode::kSuccess, message};
+}
+
+Outcome TrajectoryGenerator::pause() {
+  const bool before = executor_.paused();
+  const MotionExecutor::Turn turn = executor_.pause();
+  if (before) return {AnswerCode::kSuccess, "paused already"};
+  if (!turn.moving) return {AnswerCode::kSuccess, "nothing moves; what is executed starts at ~resume"};
+  const std::string seconds = numberText(turn.settles_in) + " s";
+  if (turn.ends_first)
+    return {AnswerCode::kSuccess, "the motion ends in " + seconds + ", there is no room to pause before"};
+  return {AnswerCode::kSuccess, "at rest on its path in " + seconds};
+}
+
+Outcome TrajectoryGenerator::resume() {
+  if (!executor_.paused()) return {AnswerCode::kSuccess, "nothing is paused"};
+  const MotionExecutor::Turn turn = executor_.resume();
+  if (!turn.moving) return {AnswerCode::kSuccess, "nothing moves; what is executed starts at once"};
+  if (executor_.speed() == 0.0) return {AnswerCode::kSuccess, paceNote()};
+  return {AnswerCode::kSuccess, "at its speed in " + numberText(turn.settles_in) + " s"};
+}
+
+Outcome TrajectoryGenerator::setSpeed(double speed) {
+  requireFinite(speed, kSpeedTopic);
+  if (speed < 0.0 || speed > 1.0) {
+    throw InputError(AnswerCode::kInvalidGoal,
+                     std::string(kSpeedTopic) + " is " + numberText(speed) + ", it must be from 0 to 1");
+  }
+  executor_.setSpeed(speed);
+  return {};
 }
 
 }  // namespace ros_bridge

@@ -1,5 +1,8 @@
 #include "screwline/ros/trajectory_generator.h"
 
+#include <ros/console.h>
+#include <std_msgs/Float64.h>
+
 #include <boost/function.hpp>
 
 #include "screwline/ros/checks.h"
@@ -59,10 +62,19 @@ TrajectoryGenerator::TrajectoryGenerator(ServedRobot robot, const TrajectoryPara
       sinks_(sinks),
       planner_(robot_, params.ik_timeout, std::move(lookup)),
       streams_(robot_.chain, sinks),
-      executor_(initialPosition(*robot_.chain, params.initial_position), params.rate, std::move(clock),
+      executor_(initialPosition(*robot_.chain, params.initial_position), params.rate, limits_, std::move(clock),
                 [this](const StreamSample& sample) { streams_.publish(sample); }) {}
 
-void TrajectoryGenerator::advertise(ros::NodeHandle& private_node) {
+void TrajectoryGenerator::advertise(ros::NodeHandle& private_node, ros::NodeHandle& node) {
+  const boost::function<void(const std_msgs::Float64::ConstPtr&)> take =
+      [this](const std_msgs::Float64::ConstPtr& speed) {
+        try {
+          setSpeed(speed->data);
+        } catch (const std::exception& error) {
+          ROS_WARN_STREAM("refused: " << error.what());
+        }
+      };
+  speed_ = node.subscribe<std_msgs::Float64>(kSpeedTopic, 1, take);
   services_ = {
       offer<PlanTrajectory>(private_node, kPlanService,
                             [this](const auto& request, auto& response) { return plan(request, response); }),
@@ -71,6 +83,8 @@ void TrajectoryGenerator::advertise(ros::NodeHandle& private_node) {
       offer<ListProfiles>(private_node, kListProfilesService,
                           [this](const auto& request, auto& response) { return listProfiles(request, response); }),
       offerTrigger(private_node, kStopService, [this] { return stop(); }),
+      offerTrigger(private_node, kPauseService, [this] { return pause(); }),
+      offerTrigger(private_node, kResumeService, [this] { return resume(); }),
   };
 }
 

@@ -6,12 +6,14 @@
 
 #include "screwline/trajectory/joint_trajectory.h"
 #include "screwline/trajectory/limits.h"
+#include "screwline/trajectory/path_clock.h"
 #include "screwline/trajectory/stop.h"
 
 namespace screwline {
 namespace ros_bridge {
 
-/// What is streamed: a lead from where the robot is, then the motion that was asked for. Immutable.
+/// What is streamed: a lead from where the robot is, then the motion that was asked for. Immutable. Its times are path
+/// times: a PathClock says when they are.
 class Motion {
  public:
   explicit Motion(JointTrajectory main) : main_(std::move(main)) {}
@@ -23,9 +25,12 @@ class Motion {
   double duration() const { return lead_.duration() + main_.duration(); }  ///< [s]
   const JointTrajectory& lead() const { return lead_; }                    ///< Of no duration where none is needed.
   const JointTrajectory& main() const { return main_; }
+  Path path() const { return {&lead_, &main_}; }  ///< Valid as long as this.
 
   /// State at t [s]; from the duration on that of the end. No allocation where `point` has n entries.
   void sample(double t, TrajectoryPoint& point) const;
+  /// The same with derivatives by the clock's time.
+  void sample(const PathInstant& instant, TrajectoryPoint& point) const;
 
   /// Time over duration of the main motion, clamped to 1; none during the lead.
   std::optional<double> tau(double t) const;
@@ -44,8 +49,8 @@ bool isAtRest(const MotionState& state);
 bool keepsPositions(const JointTrajectory& trajectory, const Limits& limits);
 
 /// The motion from the present state. From rest at its first position it starts as it is (with the steps that its
-/// profile has); else a lead within the limits takes the robot to its first state, continuous to acceleration, or,
-/// where the limits allow no such way, to rest at its first position.
+/// profile has); else by a lead, the shortest within the limits: to its first state, continuous to acceleration, or,
+/// where the limits allow no such way, to rest at its first position. The lead is verified before it is returned.
 /// @throws InputError (kLimitsInfeasible): no lead within the limits.
 Motion startFrom(const MotionState& present, const JointTrajectory& main, const Limits& limits);
 

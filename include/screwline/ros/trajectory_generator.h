@@ -26,13 +26,18 @@ class TrajectoryGenerator {
                       const GeneratorSinks& sinks);
 
   /// Offers the services in a private namespace for as long as this lives.
-  void advertise(ros::NodeHandle& private_node);
+  /// And listens to the speed in the public one.
+  void advertise(ros::NodeHandle& private_node, ros::NodeHandle& node);
 
   MotionExecutor& executor() { return executor_; }
 
   Outcome plan(const PlanTrajectory::Request& request, PlanTrajectory::Response& response);
   Outcome execute(const ExecuteTrajectory::Request& request, ExecuteTrajectory::Response& response);
   Outcome stop();
+  Outcome pause();
+  Outcome resume();
+  /// Speed at which paths are followed, 0 to 1. @throws InputError outside of it.
+  Outcome setSpeed(double speed);
   Outcome listProfiles(const ListProfiles::Request& request, ListProfiles::Response& response) const;
 
  private:
@@ -40,6 +45,7 @@ class TrajectoryGenerator {
   Outcome executePlanned(const PlannedMotion& planned);
   Outcome executeGiven(const trajectory_msgs::JointTrajectory& trajectory);
   Motion motionThrough(const std::vector<SampledPoint>& points, const MotionState& present) const;
+  std::string paceNote() const;
   std::string announce(const MotionExecutor::Started& started, const trajectory_msgs::JointTrajectory& points);
 
   ServedRobot robot_;
@@ -52,6 +58,7 @@ class TrajectoryGenerator {
   std::mutex executing_;  ///< What is announced comes in the order of what is executed.
   MotionExecutor executor_;
   std::vector<ros::ServiceServer> services_;
+  ros::Subscriber speed_;
 };
 
 }  // namespace ros_bridge

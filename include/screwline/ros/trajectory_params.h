@@ -14,7 +14,12 @@ constexpr char kTrajectoryGeneratorNode[] = "trajectory_generator";
 constexpr char kPlanService[] = "plan";
 constexpr char kExecuteService[] = "execute";
 constexpr char kStopService[] = "stop";
+constexpr char kPauseService[] = "pause";
+constexpr char kResumeService[] = "resume";
 constexpr char kListProfilesService[] = "list_profiles";
+
+// What it listens to, relative to its namespace.
+constexpr char kSpeedTopic[] = "speed_override";
 
 // What it publishes, relative to its namespace.
 constexpr char kTrajectoryStream[] = "joint_trajectory";

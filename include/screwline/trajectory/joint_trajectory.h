@@ -69,6 +69,10 @@ class JointTrajectory {
   const TimeLaw* scaling() const { return form_ == Form::kScaled ? &scaling_ : nullptr; }
   /// The polynomial pieces, nullptr in the other forms.
   const PiecewisePolynomial* pieces() const { return form_ == Form::kPiecewise ? &pieces_ : nullptr; }
+  /// The sinusoids, nullptr in the other forms.
+  const Sinusoid* sinusoid() const { return form_ == Form::kSinusoidal ? &sinusoid_ : nullptr; }
+  const VectorX& start() const { return start_; }  ///< Of the scaled form: it moves from here
+  const VectorX& delta() const { return delta_; }  ///< by this; empty in the other forms.
 
  private:
   enum class Form { kPiecewise, kScaled, kSinusoidal };
