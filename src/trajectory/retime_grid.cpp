@@ -7,7 +7,9 @@
 namespace screwline {
 namespace {
 
-constexpr int kDefaultIntervals = 1000;
+constexpr int kLeastIntervals = 1000;
+constexpr int kUsualPerSegment = 40;
+constexpr int kUsualIntervals = 4000;
 constexpr int kLeastPerSegment = 4;  // Two turns of the path need a speed between them.
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of the largest |q'| of a joint: a coefficient of w below it counts as that, so that nothing is divided by zero. What
@@ -90,7 +92,8 @@ class IntervalShape {
 
 std::vector<double> gridPoints(const JointPath& path, int wanted) {
   const int segments = static_cast<int>(path.breaks().size()) - 1;
-  const int intervals = wanted > 0 ? wanted : kDefaultIntervals;
+  const int usual = std::max(kLeastIntervals, std::min(kUsualPerSegment * segments, kUsualIntervals));
+  const int intervals = wanted > 0 ? wanted : usual;
   const int each = std::max(kLeastPerSegment, (intervals + segments - 1) / segments);
   std::vector<double> u{0.0};
   u.reserve(static_cast<std::size_t>(each) * static_cast<std::size_t>(segments) + 1);

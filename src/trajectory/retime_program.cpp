@@ -31,7 +31,7 @@ struct Binding {
 };
 
 /// The rows that bind at x, four at a time.
-Binding bindingRows(const RetimeGrid& grid, std::size_t interval, double x) {
+[[gnu::always_inline]] inline Binding searchRows(const RetimeGrid& grid, std::size_t interval, double x) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::size_t rows = static_cast<std::size_t>(grid.rows);
   const double* slopes = grid.slope.data() + interval * rows;
@@ -60,6 +60,30 @@ Binding bindingRows(const RetimeGrid& grid, std::size_t interval, double x) {
   }
   return binding;
 }
+
+// The one source, compiled for two kinds of processor.
+Binding plainRows(const RetimeGrid& grid, std::size_t interval, double x) {
+  return searchRows(grid, interval, x);
+}
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+[[gnu::target("avx2,fma")]] Binding wideRows(const RetimeGrid& grid, std::size_t interval, double x) {
+  return searchRows(grid, interval, x);
+}
+
+Binding bindingRows(const RetimeGrid& grid, std::size_t interval, double x) {
+  static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return wide ? wideRows(grid, interval, x) : plainRows(grid, interval, x);
+}
+
+#else
+
+Binding bindingRows(const RetimeGrid& grid, std::size_t interval, double x) {
+  return plainRows(grid, interval, x);
+}
+
+#endif
 
 /// The same, with the end of the interval in `next`: next.lower <= x + 2 w step <= next.upper.
 Binding bindingAt(const RetimeGrid& grid, std::size_t interval, const Range& next, double x) {
