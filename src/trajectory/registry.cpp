@@ -80,6 +80,17 @@ std::vector<Profile> jerkLimitedMoves() {
        false,
        WaypointDerivatives::kAll,
        buildTimeOptimal},
+      {{"path_time_optimal",
+        "the natural cubic spline through the waypoints (uniform knots), passed in the shortest time under the "
+        "velocity "
+        "and acceleration limits, from rest to rest",
+        {{"grid_points", "intervals in which the path is planned; 0 (default): 1000 or more, by the waypoints",
+          false}}},
+       2,
+       kAny,
+       false,
+       WaypointDerivatives::kNone,
+       buildPathTimeOptimal},
   };
 }
 

@@ -94,6 +94,7 @@ ProfileDraft buildBspline(const ProfileContext& context);  // bspline_profiles.c
 ProfileDraft buildBsplineInterpolating(const ProfileContext& context);
 ProfileDraft buildDoubleS(const ProfileContext& context);  // time_optimal_profiles.cpp
 ProfileDraft buildTimeOptimal(const ProfileContext& context);
+ProfileDraft buildPathTimeOptimal(const ProfileContext& context);  // path_profiles.cpp
 
 }  // namespace screwline
 
