@@ -223,6 +223,8 @@ Formula Reader::collected(const Terms& terms, int first, int count) {
       products.push_back({{{key, number}}, factor});
     }
   }
+  const bool apart = products.size() == 1 && products.front().first.size() == terms.size();
+  if (apart) return flat(terms);  // Nothing but monomials: no bracket came together.
   std::sort(products.begin(), products.end(), [this](const auto& a, const auto& b) {
     return isBefore(a.first.begin()->first, b.first.begin()->first);
   });
