@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "screwline/spatial/pose.h"
+
 namespace screwline {
 
 /// An angle by its cosine and sine: sums, differences and rotations need no other function. The closed forms compute
@@ -13,6 +15,7 @@ struct Turn {
 
   Turn inverse() const { return {c, -s}; }
   Turn opposite() const { return {-c, -s}; }
+  double angle() const { return std::atan2(s, c); }
 };
 
 /// Sum of the angles; lengths multiply where they are not 1.
@@ -35,6 +38,11 @@ inline Turn normalized(const Turn& turn) {
 /// The turn that takes the direction of (from_x, from_y) to that of (to_x, to_y).
 inline Turn turnBetween(double from_x, double from_y, double to_x, double to_y) {
   return normalized({to_x * from_x + to_y * from_y, to_y * from_x - to_x * from_y});
+}
+
+/// v turned about the unit vector `axis` (Rodrigues).
+inline Vector3 turned(const Vector3& axis, const Turn& turn, const Vector3& v) {
+  return turn.c * v + turn.s * axis.cross(v) + (1.0 - turn.c) * axis.dot(v) * axis;
 }
 
 }  // namespace screwline

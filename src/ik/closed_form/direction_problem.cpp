@@ -64,12 +64,12 @@ void DirectionProblem::solve(const Vector3& start, const Vector3& goal, double e
     if (solution.first_free) {
       solution.first = preferred_first;
     } else {
-      solution.first = Turn::along(at_first.dot(goal), first_.dot(at_first.cross(goal)));
+      solution.first = normalized({at_first.dot(goal), first_.dot(at_first.cross(goal))});
     }
     if (solution.second_free) {
       solution.second = preferred_second;
     } else {
-      solution.second = Turn::along(start.dot(at_second), second_.dot(start.cross(at_second)));
+      solution.second = normalized({start.dot(at_second), second_.dot(start.cross(at_second))});
     }
     solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solution;
   }

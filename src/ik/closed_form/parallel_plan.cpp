@@ -35,7 +35,7 @@ struct ParallelPlan::Roots {
 };
 
 Turn ParallelPlan::preferredTurn(const Question& question, int axis) const {
-  return Turn::of(sense_[static_cast<std::size_t>(axis)] * question.preferred[jointOf(axis)]);
+  return turnBy(sense_[static_cast<std::size_t>(axis)] * question.preferred[jointOf(axis)]);
 }
 
 ParallelPlan::Question ParallelPlan::questionOf(const Pose& target, const double* preferred) const {
@@ -89,14 +89,14 @@ ParallelPlan::Roots ParallelPlan::singleRoots(const Question& question) const {
   const double least = std::sqrt(kDoubleRootTolerance * amplitude * std::max(amplitude, scale));
   root.error = kRounding * scale / std::max(distance, least);
   if (distance == 0.0) {
-    root.turn = Turn::along(-k * a, -k * b);
+    root.turn = normalized({-k * a, -k * b});
     roots.roots[0] = root;
     roots.count = 1;
     return roots;
   }
   for (int sign : {1, -1}) {
     root.sign = sign;
-    root.turn = Turn::along(-k * a + sign * b * distance, -k * b - sign * a * distance);
+    root.turn = normalized({-k * a + sign * b * distance, -k * b - sign * a * distance});
     roots.roots[static_cast<std::size_t>(roots.count++)] = root;
   }
   return roots;
@@ -156,7 +156,7 @@ void ParallelPlan::placeOf(const Question& question, const Turn& single, const T
   if (single_ == Single::kBeforeParallel) undo(single_axis_, single);
   point -= point_[k];
   place = {point.dot(x_), point.dot(y_)};
-  heading = Turn::along(side.dot(x_), side.dot(y_));
+  heading = normalized({side.dot(x_), side.dot(y_)});
 }
 
 void ParallelPlan::solvePlane(const Question& question, const Root& root, const DirectionSolution& pair,
@@ -220,7 +220,7 @@ std::vector<double> ParallelPlan::extremes(const Pose& target, const double* pre
     // The place runs on a circle: a + b e^(+-i angle), known from a half and a quarter turn.
     std::array<Turn, 3> places;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Turn turn = Turn::of(0.5 * kPi * static_cast<double>(k));
+      const Turn turn = turnBy(0.5 * kPi * static_cast<double>(k));
       Turn heading;
       placeOf(question, root.turn, is_first ? turn : pairs.begin()->first, is_first ? pairs.begin()->second : turn,
               places[k], heading);

@@ -17,7 +17,7 @@ std::optional<PlanarProblem> PlanarProblem::compile(const Turn& first_link, cons
   if (std::min(problem.first_length_, problem.second_length_) <= kStructureLengthTolerance * length)
     return std::nullopt;
   const Turn bend = second_link * first_link.inverse();
-  problem.bend_ = Turn::along(bend.c, bend.s);
+  problem.bend_ = normalized(bend);
   return problem;
 }
 
@@ -44,12 +44,12 @@ void PlanarProblem::solve(double x, double y, const Turn& heading, double error,
     solution.sign = one ? 0 : sign;
     solution.free = free;
     solution.clamped = slack < -exact;
-    const Turn elbow = Turn::along(cosine, sign * sine) * bend_.inverse();
+    const Turn elbow = normalized({cosine, sign * sine}) * bend_.inverse();
     const Turn second_link = second_link_ * elbow;
     const Turn reach{first_link_.c + second_link.c, first_link_.s + second_link.s};
     const Turn first = place * reach.inverse();
     const bool undirected = free || (first.c == 0.0 && first.s == 0.0);
-    solution.turns[0] = undirected ? preferred : Turn::along(first.c, first.s);
+    solution.turns[0] = undirected ? preferred : normalized(first);
     solution.turns[1] = elbow;
     solution.turns[2] = heading * (solution.turns[0] * elbow).inverse();
     solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solution;

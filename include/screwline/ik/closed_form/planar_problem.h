@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "screwline/ik/closed_form/turn.h"
+#include "screwline/spatial/turn.h"
 
 namespace screwline {
 
