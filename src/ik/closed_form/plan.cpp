@@ -63,10 +63,11 @@ void ClosedFormPlan::addOrientation(const PlanSolution& arm, const OrientationSo
   const auto first = static_cast<std::size_t>(spherical_first_);
   for (const OrientationSolution& turn : turns) {
     PlanSolution& solution = solutions.solutions[static_cast<std::size_t>(solutions.count++)];
-    solution = arm;
+    solution.q = arm.q;
     for (std::size_t i = 0; i < 3; ++i) solution.q[first + i] = turn.q[i];
-    solution.sign[2] = turn.sign;
-    if (turn.free) solution.free |= 1U << first;
+    solution.free = turn.free ? arm.free | 1U << first : arm.free;
+    solution.sign = {arm.sign[0], arm.sign[1], turn.sign};
+    solution.rank = arm.rank;
   }
 }
 

@@ -34,13 +34,15 @@ void addElbows(const PositionGeometry& g, const TwoLinks& links, double x, doubl
   const double below = (longest - reach) * (longest + reach);
   const double root = squareRootOrNone(above * below, links.amplitude * std::max(links.amplitude, scale));
   if (root < 0.0) return;
+  const double scale_bend = 1.0 / (above + below);
   const bool free = reach <= kOnAxis * g.length;
   for (int sign : {1, -1}) {
     if (root == 0.0 && sign < 0) break;
     PositionSolution& solution = out.solutions[static_cast<std::size_t>(out.count++)];
     solution = partial;
     solution.sign[0] = root == 0.0 ? 0 : sign;
-    const Turn bend = normalized({above - below, 2.0 * sign * root}) * links.at_zero.inverse();
+    // Its length is 1, as (above - below)^2 + 4 above below = (above + below)^2.
+    const Turn bend = Turn{scale_bend * (above - below), 2.0 * scale_bend * sign * root} * links.at_zero.inverse();
     solution.turn[2] = {bend.c, g.third_sense * bend.s};
     if (free) {
       setFree(1, preferred, solution);
@@ -61,6 +63,7 @@ void solveArmPlane(const PositionGeometry& g, const Vector3& start, const Vector
                    PositionSolutions& out) {
   const TurnGoal goal(g, target);
   const TwoLinks links(g, start);
+  if (links.fore <= kOnAxis * g.length) return;  // Axis 3 does not move the point: no plan for positions.
   const double lateral = g.y1.dot(start - g.axes[0].point);
   const double aside = std::abs(lateral);
   const double forward =

@@ -97,11 +97,6 @@ RealRoots solveBetween(const double* c, int degree, const RealRoots& critical) {
 
 }  // namespace
 
-double squareRootOrNone(double radicand, double scale) {
-  if (std::abs(radicand) <= kDoubleRootTolerance * scale) return 0.0;
-  return radicand > 0.0 ? std::sqrt(radicand) : -1.0;
-}
-
 RealRoots solveSinusoid(double k, double a, double b, double scale) {
   RealRoots roots;
   const double amplitude = std::sqrt(a * a + b * b);

@@ -20,6 +20,30 @@ Turn turnAbout(const Vector3& axis, const Vector3& from, const Vector3& to) {
   return normalized({from.dot(to), axis.dot(from.cross(to))});
 }
 
+/// A row of a matrix, two of its numbers in one register.
+struct Row {
+  using Two = double __attribute__((vector_size(16)));
+
+  Row(const Matrix3& M, int row) : xy{M(row, 0), M(row, 1)}, z(M(row, 2)) {}
+  void store(int row, Matrix3& M) const {
+    M(row, 0) = xy[0];
+    M(row, 1) = xy[1];
+    M(row, 2) = z;
+  }
+
+  Two xy;
+  double z;
+};
+
+/// Takes a turn that leads from the direction of row a to that of row b off them.
+void mixRows(const Turn& turn, Row& a, Row& b) {
+  const Row old = a;
+  a.xy = turn.c * a.xy + turn.s * b.xy;
+  a.z = turn.c * a.z + turn.s * b.z;
+  b.xy = turn.c * b.xy - turn.s * old.xy;
+  b.z = turn.c * b.z - turn.s * old.z;
+}
+
 }  // namespace
 
 TurnSequence::TurnSequence(const std::array<Axis, 3>& axes, const Matrix3& N) {
@@ -34,6 +58,20 @@ TurnSequence::TurnSequence(const std::array<Axis, 3>& axes, const Matrix3& N) {
     before = normal;
   }
   last_ = turnAbout(N.col(2), before, N.col(0));
+}
+
+void TurnSequence::undo(const std::array<Turn, 3>& turns, Matrix3& M) const {
+  Row x(M, 0);
+  Row y(M, 1);
+  Row z(M, 2);
+  for (std::size_t i = 0; i < 3; ++i) {
+    mixRows(turns[i] * offset_[i], x, y);
+    mixRows(tilt_[i], y, z);
+  }
+  mixRows(last_, x, y);
+  x.store(0, M);
+  y.store(1, M);
+  z.store(2, M);
 }
 
 }  // namespace screwline

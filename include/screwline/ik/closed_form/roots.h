@@ -2,6 +2,7 @@
 #define SCREWLINE_IK_CLOSED_FORM_ROOTS_H
 
 #include <array>
+#include <cmath>
 
 #include "screwline/spatial/turn.h"
 
@@ -33,7 +34,10 @@ constexpr double kDoubleRootTolerance = 1e-14;
 
 /// sqrt of a product or difference of squares whose exact value may be zero: `scale` is the size of its terms. Returns
 /// 0 within kDoubleRootTolerance * scale of zero, and -1 where it is negative beyond that.
-double squareRootOrNone(double radicand, double scale);
+inline double squareRootOrNone(double radicand, double scale) {
+  if (std::abs(radicand) <= kDoubleRootTolerance * scale) return 0.0;
+  return radicand > 0.0 ? std::sqrt(radicand) : -1.0;
+}
 
 /// k + a cos(x) + b sin(x) = 0. Roots are turns. `scale` is the size below which coefficients are rounding.
 RealRoots solveSinusoid(double k, double a, double b, double scale);

@@ -18,25 +18,9 @@ class TurnSequence {
   const Matrix3& base() const { return base_; }  ///< A; its z is axis 1.
 
   /// M becomes (R1 R2 R3 N)^T A M. A prismatic axis has the turn zero. No allocation.
-  void undo(const std::array<Turn, 3>& turns, Matrix3& M) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      mixRows(turns[i] * offset_[i], 0, M);
-      mixRows(tilt_[i], 1, M);
-    }
-    mixRows(last_, 0, M);
-  }
+  void undo(const std::array<Turn, 3>& turns, Matrix3& M) const;
 
  private:
-  /// Takes a turn about z (row 0) or x (row 1) off the rows of M.
-  static void mixRows(const Turn& turn, int row, Matrix3& M) {
-    for (int column = 0; column < 3; ++column) {
-      const double a = M(row, column);
-      const double b = M(row + 1, column);
-      M(row, column) = turn.c * a + turn.s * b;
-      M(row + 1, column) = turn.c * b - turn.s * a;
-    }
-  }
-
   Matrix3 base_ = Matrix3::Identity();
   std::array<Turn, 3> offset_;  ///< From the common normal with the axis before to the one with the axis after.
   std::array<Turn, 3> tilt_;    ///< To the next axis, about their common normal.
