@@ -68,6 +68,13 @@ double bracketedRoot(const double* c, int degree, double low, double high, int s
   return x;
 }
 
+/// Whether an extremum comes near to zero without passing it.
+bool almostTouches(const double* c, int degree, double x, double value) {
+  double curvature = 0.0;
+  for (int i = degree; i >= 2; --i) curvature = curvature * x + i * (i - 1) * c[i];
+  return value * curvature > 0.0 && std::abs(value) <= kReachTolerance * magnitude(c, degree, x);
+}
+
 /// RealRoots of a polynomial of degree 3 or 4 from its critical points.
 RealRoots solveBetween(const double* c, int degree, const RealRoots& critical) {
   double bound = 0.0;
@@ -85,7 +92,8 @@ RealRoots solveBetween(const double* c, int degree, const RealRoots& critical) {
       sign_high = std::abs(value) <= kDoubleRootTolerance * magnitude(c, degree, high) ? 0 : signOf(value);
     }
     if (sign_low * sign_high < 0) roots.add(bracketedRoot(c, degree, low, high, sign_low), sign_high);
-    if (sign_high == 0 && roots.count < 4) roots.add(high, 0);
+    const bool touches = !last && (sign_high == 0 || almostTouches(c, degree, high, evaluate(c, degree, high)));
+    if (touches && roots.count < 4) roots.add(high, 0);
     low = high;
     sign_low = sign_high;
   }
@@ -95,8 +103,8 @@ RealRoots solveBetween(const double* c, int degree, const RealRoots& critical) {
 }  // namespace
 
 double squareRootOrNone(double radicand, double scale) {
-  if (std::abs(radicand) <= kDoubleRootTolerance * scale) return 0.0;
-  return radicand > 0.0 ? std::sqrt(radicand) : -1.0;
+  if (radicand > kDoubleRootTolerance * scale) return std::sqrt(radicand);
+  return radicand >= -kReachTolerance * scale ? 0.0 : -1.0;
 }
 
 RealRoots solveSinusoid(double k, double a, double b, double scale) {

@@ -27,8 +27,12 @@ struct RealRoots {
 /// 1e-14 they are 1e-7 rad apart, below the 1e-6 at which solutions are one anyway.
 constexpr double kDoubleRootTolerance = 1e-14;
 
+/// Radicands this far below zero (of their terms) may be what rounding, or a stage before, has left of a double root:
+/// it is proposed, and forward kinematics decides.
+constexpr double kReachTolerance = 1e-10;
+
 /// sqrt of a product or difference of squares whose exact value may be zero: `scale` is the size of its terms. Returns
-/// 0 within kDoubleRootTolerance * scale of zero, and -1 where it is negative beyond that.
+/// 0 from -kReachTolerance * scale to kDoubleRootTolerance * scale, and -1 below.
 double squareRootOrNone(double radicand, double scale);
 
 /// k + a cos(x) + b sin(x) = 0. Angles in (-2 pi, 2 pi), not wrapped. `scale` is the size below which coefficients are
