@@ -45,6 +45,7 @@ inline double placeTolerance(const SerialChain& chain, const Task& task, const V
 /// What was asked of inverse kinematics about the pose of one configuration, and what came of it.
 struct GateVerdict {
   bool answered = false;            ///< Every question had a solution.
+  bool found_unseeded = false;      ///< The one without a seed had.
   bool proved_unreachable = false;  ///< Said of a pose that the configuration reaches.
   bool complete = false;
   bool threw = false;
@@ -98,6 +99,7 @@ class IkGate {
   bool isKnown(const VectorX& solution, const IkResult& result, double tolerance) const {
     for (const IkAnswer& answer : result.solutions) {
       if (jointDifference(chain_, answer.position, solution) <= tolerance) return true;
+      if (isSameToRounding(answer.position, solution)) return true;
     }
     // The nearest member to a seed beside a member cannot be farther than that member.
     const bool continuous = std::any_of(result.solutions.begin(), result.solutions.end(),
@@ -111,6 +113,20 @@ class IkGate {
            near.solutions.front().distance <= (question.seed - solution).norm() * 1.001 + tolerance;
   }
 
+  /// Where all between two solutions solves the pose to rounding, the pose does not tell them apart.
+  bool isSameToRounding(const VectorX& a, const VectorX& b) const {
+    VectorX way = b - a;
+    for (int i = 0; i < chain_.size(); ++i) {
+      if (chain_.joint(i).isRevolute()) way[i] = std::remainder(way[i], kTwoPi);
+    }
+    if (way.norm() > 1e-2) return false;
+    for (double share : {0.25, 0.5, 0.75, 1.0}) {
+      const double error = taskError(ik_.task(), target_, forwardKinematics(chain_, a + share * way)).norm();
+      if (error > 2e-14 * (1.0 + chain_.characteristicLength())) return false;
+    }
+    return true;
+  }
+
  private:
   void note(const std::string& text) {
     if (verdict_.message.empty()) verdict_.message = text;
@@ -118,7 +134,8 @@ class IkGate {
 
   void unseeded() {
     const IkResult result = ik_.solve(request());
-    verdict_.answered = result.status == IkStatus::kSolved;
+    verdict_.found_unseeded = result.status == IkStatus::kSolved;
+    verdict_.answered = verdict_.found_unseeded || !ik_.complete();
     verdict_.proved_unreachable = result.status == IkStatus::kUnreachable;
     verdict_.complete = result.complete;
     verdict_.count = static_cast<int>(result.solutions.size());
