@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ik_request_check.h"
+#include "mate.h"
 #include "parallel_candidates.h"
 #include "plan_candidates.h"
 #include "screwline/exception.h"
@@ -18,6 +19,8 @@ namespace screwline {
 namespace {
 
 constexpr int kClosestRestarts = 256;  // Starts for the best reachable configuration: fewer were seen to miss it.
+
+constexpr double kAlmostSingular = 1e-3;  // Manipulability, lengths in the chain's, below which solutions may meet.
 
 bool isNearer(const IkAnswer& a, const IkAnswer& b) {
   if (a.distance != b.distance) return a.distance < b.distance;
@@ -79,11 +82,15 @@ struct InverseKinematics::Implementation {
 
   std::vector<Candidate> candidates(const IkRequest& request, const SolutionBuilder& builder, bool doubted,
                                     IkResult& result) const;
+  std::vector<Candidate> withSearched(const IkRequest& request, const SolutionBuilder& builder,
+                                      std::vector<Candidate> found, IkResult& result) const;
   bool keep(const IkRequest& request, const std::vector<Candidate>& candidates, const SolutionBuilder& builder,
             IkResult& result) const;
   bool gather(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
+  bool isAlmostSingular(const IkAnswer& solution) const;
   void admit(const IkRequest& request, const IkAnswer& solution, const SolutionBuilder& builder,
              IkResult& result) const;
+  void dropRepeated(IkResult& result) const;
   void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
   void conclude(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   std::string account(const IkRequest& request, const IkResult& result) const;
@@ -106,10 +113,10 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
     result.complete =
         plan->task.size() == task.size() ||
         std::all_of(found.begin(), found.end(), [](const Candidate& candidate) { return candidate.free.empty(); });
-    // Rows beyond the plan's are met by some of its solutions, and by some members of a continuum at most.
-    if (plan->task.size() == task.size()) return found;
+    if (result.complete) return found;
+    // Rows beyond the plan's are met by some members of a continuum at most: these are searched.
     for (Candidate& candidate : found) candidate.free.clear();
-    return found;
+    return found.empty() ? found : withSearched(request, builder, std::move(found), result);
   }
   if (parallel) {
     ParallelCandidates found = candidatesOf(*parallel, chain, request.target, builder.seed(), doubted);
@@ -124,6 +131,13 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
     result.complete = roots.complete;
     if (result.complete) return found;  // Else the search may add to them.
   }
+  return withSearched(request, builder, std::move(found), result);
+}
+
+std::vector<Candidate> InverseKinematics::Implementation::withSearched(const IkRequest& request,
+                                                                       const SolutionBuilder& builder,
+                                                                       std::vector<Candidate> found,
+                                                                       IkResult& result) const {
   SearchOptions options;
   options.descent.honour_limits = !request.ignore_limits;
   options.descent.rotation_weight = request.rotation_weight;
@@ -139,6 +153,7 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
 bool InverseKinematics::Implementation::keep(const IkRequest& request, const std::vector<Candidate>& candidates,
                                              const SolutionBuilder& builder, IkResult& result) const {
   bool all = true;
+  std::vector<IkAnswer> mates;
   for (const Candidate& candidate : candidates) {
     std::optional<IkAnswer> solution = builder.build(candidate);
     if (!solution) {
@@ -148,8 +163,45 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, const std
     }
     if (chain.size() > task.size()) describeRedundancy(chain, task, *solution);
     admit(request, *solution, builder, result);
+    if (!isAlmostSingular(*solution)) continue;
+    const std::optional<VectorX> mate = mateOf(chain, task, request.target, solution->position);
+    if (!mate || largestDifference(chain, *mate, solution->position) <= kSameSolution) continue;
+    Candidate other = searched(*mate);
+    other.branch = solution->branch;
+    solution = builder.build(other);
+    if (solution) mates.push_back(*solution);
+  }
+  for (const IkAnswer& mate : mates) {
+    const bool known = std::any_of(result.solutions.begin(), result.solutions.end(), [&](const IkAnswer& answer) {
+      return largestDifference(chain, mate.position, answer.position) <= kSameSolution;
+    });
+    if (!known) admit(request, mate, builder, result);
   }
   return all;
+}
+
+/// By what costs nothing; mateOf() looks closer.
+bool InverseKinematics::Implementation::isAlmostSingular(const IkAnswer& solution) const {
+  const double scale = std::pow(chain.characteristicLength(), task.translationCount());
+  return (plan || algebraic) && chain.size() == task.size() && solution.self_motion.rows() == 0 &&
+         solution.manipulability <= kAlmostSingular * scale;
+}
+
+/// Refinement has brought candidates together that were apart, and pieces of one curve may have the same nearest
+/// member.
+void InverseKinematics::Implementation::dropRepeated(IkResult& result) const {
+  std::vector<IkAnswer> distinct;
+  for (IkAnswer& answer : result.solutions) {
+    const auto known = std::find_if(distinct.begin(), distinct.end(), [&answer](const IkAnswer& other) {
+      return (other.position - answer.position).cwiseAbs().maxCoeff() <= kSameSolution;
+    });
+    if (known == distinct.end()) {
+      distinct.push_back(std::move(answer));
+    } else if (known->self_motion.rows() < answer.self_motion.rows()) {
+      *known = std::move(answer);
+    }
+  }
+  result.solutions = std::move(distinct);
 }
 
 /// Into the list, in every turn asked for, unless limits or the branch forbid it.
@@ -234,6 +286,7 @@ std::string InverseKinematics::Implementation::account(const IkRequest& request,
 void InverseKinematics::Implementation::conclude(const IkRequest& request, const SolutionBuilder& builder,
                                                  IkResult& result) const {
   std::sort(result.solutions.begin(), result.solutions.end(), isNearer);
+  dropRepeated(result);
   const auto limit = static_cast<std::size_t>(request.max_solutions);
   if (limit > 0 && result.solutions.size() > limit) {
     result.left_out = static_cast<int>(result.solutions.size() - limit);
@@ -309,7 +362,10 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
     const std::vector<IkAnswer> answers = selfMotionAnswers(*self.redundant, request, builder, result);
     for (const IkAnswer& answer : answers) self.admit(request, answer, builder, result);
     any = !answers.empty();
-  } else {
+  }
+  // No curve can be followed from what is singular: a search may still meet its solutions.
+  const bool found_curves = any || result.outside_limits > 0;
+  if (!self.redundant || (!found_curves && !self.redundant->closedForm())) {
     any = self.gather(request, builder, result);
   }
   self.admitSeed(builder, result);

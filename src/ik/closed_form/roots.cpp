@@ -71,6 +71,13 @@ double bracketedRoot(const double* c, int degree, double low, double high, int s
   return x;
 }
 
+/// Whether an extremum comes near to zero without passing it.
+bool almostTouches(const double* c, int degree, double x, double value) {
+  double curvature = 0.0;
+  for (int i = degree; i >= 2; --i) curvature = curvature * x + i * (i - 1) * c[i];
+  return value * curvature > 0.0 && std::abs(value) <= kReachTolerance * magnitude(c, degree, x);
+}
+
 /// RealRoots of a polynomial of degree 3 or 4 from its critical points.
 RealRoots solveBetween(const double* c, int degree, const RealRoots& critical) {
   double bound = 0.0;
@@ -88,7 +95,8 @@ RealRoots solveBetween(const double* c, int degree, const RealRoots& critical) {
       sign_high = std::abs(value) <= kDoubleRootTolerance * magnitude(c, degree, high) ? 0 : signOf(value);
     }
     if (sign_low * sign_high < 0) roots.add(bracketedRoot(c, degree, low, high, sign_low), sign_high);
-    if (sign_high == 0 && roots.count < 4) roots.add(high, 0);
+    const bool touches = !last && (sign_high == 0 || almostTouches(c, degree, high, evaluate(c, degree, high)));
+    if (touches && roots.count < 4) roots.add(high, 0);
     low = high;
     sign_low = sign_high;
   }

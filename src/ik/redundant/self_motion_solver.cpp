@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kStarts = 96;        // Descents for a chain without a closed form.
 constexpr int kRescueStarts = 64;  // Descents where slices found nothing within limits.
-constexpr double kNear = 1e-6;     // [rad, lengths] A search's result is this near to the solution set at most.
+constexpr int kRankTrials = 8;
+constexpr double kNear = 1e-6;  // [rad, lengths] A search's result is this near to the solution set at most.
 
 std::vector<VectorX> searched(const SerialChain& chain, const SelfMotionQuestion& question, int restarts, int count,
                               bool honour_limits) {
@@ -67,6 +68,18 @@ void conclude(const SerialChain& chain, bool closed_form, SelfMotionSet& set) {
   set.complete = set.complete && !broken;
 }
 
+/// Where the tip moves in less than six dimensions solutions are surfaces, not curves.
+bool isAlwaysSingular(const SerialChain& chain) {
+  Matrix6X J(6, kRedundantJoints);
+  for (int k = 1; k <= kRankTrials; ++k) {
+    Vector7 q;
+    for (int i = 0; i < kRedundantJoints; ++i) q[i] = std::remainder(k * (0.7 + 0.31 * i), kPi);
+    geometricJacobian(chain, q, J);
+    if (rankOf(singularValues(J), jacobianNoise(J)) == 6) return false;
+  }
+  return true;
+}
+
 bool hasInterval(const SelfMotionSet& set) {
   return std::any_of(set.curves.begin(), set.curves.end(),
                      [](const SelfMotionCurve& curve) { return !curve.intervals.empty(); });
@@ -95,7 +108,7 @@ SelfMotionSolver::SelfMotionSolver(const SerialChain& chain)
 }
 
 std::optional<SelfMotionSolver> SelfMotionSolver::compile(const SerialChain& chain) {
-  if (chain.size() != kRedundantJoints || chain.hasMimic()) return std::nullopt;
+  if (chain.size() != kRedundantJoints || chain.hasMimic() || isAlwaysSingular(chain)) return std::nullopt;
   return SelfMotionSolver(chain);
 }
 

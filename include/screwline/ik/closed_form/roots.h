@@ -32,11 +32,15 @@ struct RealRoots {
 /// 1e-14 they are 1e-7 rad apart, below the 1e-6 at which solutions are one anyway.
 constexpr double kDoubleRootTolerance = 1e-14;
 
+/// Radicands this far below zero (of their terms) may be what rounding, or a stage before, has left of a double root:
+/// it is proposed, and forward kinematics decides.
+constexpr double kReachTolerance = 1e-10;
+
 /// sqrt of a product or difference of squares whose exact value may be zero: `scale` is the size of its terms. Returns
-/// 0 within kDoubleRootTolerance * scale of zero, and -1 where it is negative beyond that.
+/// 0 from -kReachTolerance * scale to kDoubleRootTolerance * scale, and -1 below.
 inline double squareRootOrNone(double radicand, double scale) {
-  if (std::abs(radicand) <= kDoubleRootTolerance * scale) return 0.0;
-  return radicand > 0.0 ? std::sqrt(radicand) : -1.0;
+  if (radicand > kDoubleRootTolerance * scale) return std::sqrt(radicand);
+  return radicand >= -kReachTolerance * scale ? 0.0 : -1.0;
 }
 
 /// k + a cos(x) + b sin(x) = 0. Roots are turns. `scale` is the size below which coefficients are rounding.

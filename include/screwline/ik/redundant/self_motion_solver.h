@@ -67,7 +67,8 @@ class ReachMargin;
 /// cross. Immutable; all functions allocate and may be called from many threads.
 class SelfMotionSolver {
  public:
-  /// Empty where the chain has not seven joints, or mimic joints.
+  /// Empty where the chain has not seven joints, or mimic joints, or moves its tip in less than six dimensions: its
+  /// solutions are no curves.
   static std::optional<SelfMotionSolver> compile(const SerialChain& chain);
 
   const std::optional<RedundantSolver>& closedForm() const { return closed_form_; }

@@ -1,0 +1,114 @@
+// Laws of inverse kinematics at singular poses of every kind, and beside them, for all robots.
+//
+// SCREWLINE_POSES: poses of each robot, kind and offset. benchmark/singular_sweep prints the table of the same sweep.
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "ik_gate.h"
+#include "shipped_robots.h"
+#include "singular_poses.h"
+#include "singular_search.h"
+
+namespace screwline {
+namespace {
+
+using test::GateVerdict;
+using test::IkGate;
+using test::SingularKind;
+using test::SingularPoses;
+
+constexpr unsigned kSeed = 20261125;
+
+class SingularLaws : public testing::TestWithParam<std::string> {
+ protected:
+  SingularLaws() : robot_(test::shippedRobot(SCREWLINE_SOURCE_DIR, GetParam())), ik_(robot_.chain, robot_.task) {}
+
+  VectorX push() const { return VectorX::LinSpaced(robot_.chain.size(), 8e-4, -5e-4); }
+
+  test::ShippedRobot robot_;
+  InverseKinematics ik_;
+};
+
+TEST_P(SingularLaws, EveryPoseIsAnsweredAndNoBranchLost) {
+  const unsigned poses = test::wished("SCREWLINE_POSES", 1);
+  SingularPoses maker(robot_.chain, kSeed);
+  int asked = 0;
+  int complete = 0;
+  int continua = 0;
+  for (const SingularKind& kind : test::singularKindsOf(robot_.chain, robot_.task)) {
+    for (double offset : test::singularOffsets()) {
+      for (unsigned k = 0; k < poses; ++k) {
+        const std::optional<VectorX> q = maker.make(kind, offset);
+        if (!q) continue;
+        const GateVerdict verdict = IkGate(ik_, *q, true).judge(push());
+        EXPECT_TRUE(verdict.isLawful() && !verdict.lost)
+            << kind.name << " + " << offset << ", seed " << kSeed << "\n  " << verdict.message << "\n  lost "
+            << verdict.lost << ", complete " << verdict.complete << ", worst error " << verdict.worst_error
+            << "\n  q = " << q->transpose();
+        ++asked;
+        complete += verdict.complete ? 1 : 0;
+        continua += verdict.continua > 0 ? 1 : 0;
+      }
+    }
+  }
+  std::printf("%-16s %4d poses, complete %4d, with continua %4d\n", GetParam().c_str(), asked, complete, continua);
+}
+
+TEST_P(SingularLaws, ASearchFindsNothingThatIsMissing) {
+  SingularPoses maker(robot_.chain, kSeed + 1);
+  const double offsets[] = {0.0, 1e-9, 1e-5, 1e-3};
+  int which = 0;
+  for (const SingularKind& kind : test::singularKindsOf(robot_.chain, robot_.task)) {
+    const double offset = offsets[which++ % 4];
+    const std::optional<VectorX> q = maker.make(kind, offset);
+    if (!q) continue;
+    EXPECT_EQ(test::missedSolutions(ik_, *q, 60), 0) << kind.name << " + " << offset << ", q = " << q->transpose();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, SingularLaws, testing::ValuesIn(test::shippedRobotNames()));
+
+TEST(AlwaysSingular, ArmsAreAnswered) {
+  for (const test::AlwaysSingularArm& arm : test::alwaysSingularArms()) {
+    const InverseKinematics ik(arm.chain, Task());
+    SingularPoses maker(arm.chain, kSeed);
+    for (int k = 0; k < 10; ++k) {
+      const VectorX q = maker.regular();
+      const GateVerdict verdict = IkGate(ik, q, true).judge(VectorX::LinSpaced(q.size(), 8e-4, -5e-4));
+      EXPECT_TRUE(verdict.isLawful()) << arm.name << ", " << ik.method() << "\n  " << verdict.message
+                                      << "\n  q = " << q.transpose();
+    }
+  }
+}
+
+/// Poses are as singular as their offset says, and the checker sees a solution that is missing.
+TEST(SingularPosesMaker, MakesWhatItSays) {
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "puma560");
+  SingularPoses maker(robot.chain, kSeed);
+  Matrix6X J;
+  for (const SingularKind& kind : test::singularKindsOf(robot.chain, robot.task)) {
+    for (double offset : {0.0, 1e-6, 1e-3}) {
+      const std::optional<VectorX> q = maker.make(kind, offset);
+      ASSERT_TRUE(q) << kind.name;
+      geometricJacobian(robot.chain, *q, J);
+      const double least = singularValues(J).minCoeff();
+      EXPECT_LE(least, 3.0 * offset + 1e-14) << kind.name;
+      EXPECT_GE(least, 1e-3 * offset * (kind.ways.size() > 1 ? 0.0 : 1.0)) << kind.name;
+    }
+  }
+  EXPECT_GE(test::singularKindsOf(robot.chain, robot.task).size(), 7U);
+}
+
+TEST(SingularPosesMaker, TheSearchSeesWhatOneBranchLeavesOut) {
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "rrr_planar");
+  const InverseKinematics ik(robot.chain, robot.task);
+  VectorX q(3);
+  q << 0.3, 0.9, -0.4;
+  EXPECT_EQ(test::missedSolutions(ik, q, 60), 0);
+  EXPECT_EQ(test::missedSolutions(ik, q, 60, 1), 1);
+}
+
+}  // namespace
+}  // namespace screwline
