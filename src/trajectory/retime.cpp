@@ -11,7 +11,7 @@
 namespace screwline {
 namespace {
 
-/// [per s] A rate beyond this is bounded by nothing.
+/// [per s] A rate beyond this is bounded by nothing; [s] a duration beyond it is none.
 constexpr double kUnbounded = 1e90;
 
 [[noreturn]] void refuse(const std::string& message) {
@@ -67,13 +67,23 @@ double greatestEnd(const RetimeGrid& grid, double x) {
   return x;
 }
 
+/// [s] of an interval. Its ends are never both at rest, but for speeds too small for a double.
+double timeOf(const RetimeGrid& grid, const std::vector<double>& rates, std::size_t interval) {
+  return 2.0 * grid.length(interval) / (rates[interval] + rates[interval + 1]);
+}
+
+double durationOf(const RetimeGrid& grid, const std::vector<double>& rates) {
+  double duration = 0.0;
+  for (std::size_t i = 0; i < grid.intervals(); ++i) duration += timeOf(grid, rates, i);
+  return duration;
+}
+
 /// d^2u/dt^2 is constant between grid points: s(tau) is a chain of parabolas.
-TimeLaw parabolas(const RetimeGrid& grid, const std::vector<double>& rates, double& duration) {
+TimeLaw parabolas(const RetimeGrid& grid, const std::vector<double>& rates) {
   std::vector<double> times{0.0};
   times.reserve(grid.u.size());
-  for (std::size_t i = 0; i < grid.intervals(); ++i)
-    times.push_back(times.back() + 2.0 * grid.length(i) / (rates[i] + rates[i + 1]));
-  duration = times.back();
+  for (std::size_t i = 0; i < grid.intervals(); ++i) times.push_back(times.back() + timeOf(grid, rates, i));
+  const double duration = times.back();
   const double length = grid.u.back();
   std::vector<double> breaks;
   breaks.reserve(times.size());
@@ -117,7 +127,11 @@ RetimeResult retime(const JointPath& path, const Limits& limits, const RetimeOpt
   std::vector<double> rates = fastestSpeeds(grid, sets, start);
   for (double& rate : rates) rate = std::sqrt(rate);
   if (*std::max_element(rates.begin(), rates.end()) > kUnbounded) refuse("no finite limit bounds the motion");
-  result.law = parabolas(grid, rates, result.duration);
+  result.duration = durationOf(grid, rates);
+  if (!(result.duration < kUnbounded)) {
+    throw InputError(AnswerCode::kLimitsInfeasible, "the limits leave the path no finite duration");
+  }
+  result.law = parabolas(grid, rates);
   for (std::size_t i = 0; i < rates.size(); ++i)
     result.points.push_back({grid.u[i], rates[i], std::sqrt(grid.ceiling[i])});
   return result;
