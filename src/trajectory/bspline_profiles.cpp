@@ -84,7 +84,7 @@ ProfileDraft buildBsplineInterpolating(const ProfileContext& context) {
     motion.rest_continuity = copiesForRest(degree) - 1;
     return JointTrajectory::piecewise(motion);
   };
-  return fitTimes(context, build, segmentWeights(context.waypoints(), context.limits), true);
+  return meetingVias(fitTimes(context, build, segmentWeights(context.waypoints(), context.limits), true));
 }
 
 }  // namespace screwline

@@ -105,7 +105,7 @@ ProfileDraft buildMultipointTrapezoidal(const ProfileContext& context) {
         std::accumulate(shortest.begin() + static_cast<long>(last_given), shortest.end(), waypoints[last_given].time);
   }
   const auto build = [&](const std::vector<double>& times) { return trapezoidsThrough(context, times); };
-  return fitTimes(timed, build, shortest, true);
+  return meetingVias(fitTimes(timed, build, shortest, true));
 }
 
 ProfileDraft buildMultipointCubic(const ProfileContext& context) {
@@ -117,8 +117,8 @@ ProfileDraft buildMultipointCubic(const ProfileContext& context) {
     motion.rest_continuity = 1;
     return JointTrajectory::piecewise(std::move(motion));
   };
-  return fitTimes(context, build, segmentWeights(context.waypoints(), context.limits),
-                  !movesAtEnds(context.waypoints()));
+  return meetingVias(
+      fitTimes(context, build, segmentWeights(context.waypoints(), context.limits), !movesAtEnds(context.waypoints())));
 }
 
 ProfileDraft buildMultipointQuintic(const ProfileContext& context) {
@@ -127,8 +127,8 @@ ProfileDraft buildMultipointQuintic(const ProfileContext& context) {
   const auto build = [&](const std::vector<double>& times) {
     return quinticMotion(context.waypoints(), positions, times);
   };
-  return fitTimes(context, build, segmentWeights(context.waypoints(), context.limits),
-                  positionsDecide(context.waypoints()));
+  return meetingVias(fitTimes(context, build, segmentWeights(context.waypoints(), context.limits),
+                              positionsDecide(context.waypoints())));
 }
 
 }  // namespace screwline

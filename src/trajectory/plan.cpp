@@ -1,6 +1,8 @@
 #include "screwline/trajectory/plan.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "screwline/exception.h"
 #include "screwline/trajectory/format.h"
@@ -63,21 +65,30 @@ MatrixX viaErrors(const ProfileDraft& draft, const std::vector<PathPoint>& waypo
   return errors;
 }
 
-void verifyDraft(const ProfileContext& context, const ProfileDraft& draft) {
-  std::vector<Checkpoint> ends;
-  if (context.waypoints().size() >= 2) {
-    ends.push_back({0.0, context.waypoints().front().position});
-    ends.push_back({draft.trajectory.duration(), context.waypoints().back().position});
+/// The ends, with the velocities and accelerations that are given there, and the vias where the profile meets them.
+std::vector<Checkpoint> checkpointsOf(const ProfileContext& context, const ProfileDraft& draft) {
+  std::vector<Checkpoint> checkpoints;
+  const std::size_t count = context.waypoints().size();
+  for (std::size_t k = 0; count >= 2 && k < count; ++k) {
+    const PathPoint& waypoint = context.waypoints()[k];
+    const bool end = k == 0 || k + 1 == count;
+    if (!end && !draft.meets_vias) continue;
+    const double time = k == 0 ? 0.0 : end ? draft.trajectory.duration() : draft.waypoint_times[k];
+    checkpoints.emplace_back(time, waypoint.position);
+    if (draft.meets_vias) checkpoints.back().velocity = waypoint.velocity;
+    if (draft.meets_vias) checkpoints.back().acceleration = waypoint.acceleration;
   }
+  return checkpoints;
+}
+
+void verifyDraft(const ProfileContext& context, const ProfileDraft& draft) {
+  const std::vector<Checkpoint> ends = checkpointsOf(context, draft);
   if (const auto broken = verifyTrajectory(draft.trajectory, context.limits, ends)) {
     throw Exception("internal error: profile '" + context.request.profile + "' failed its check: " + *broken);
   }
 }
 
-}  // namespace
-
-PlanResult plan(const PlanRequest& request) {
-  const Profile& profile = findProfile(request.profile);
+PlanResult planAsGiven(const PlanRequest& request, const Profile& profile) {
   const ProfileContext context = validateRequest(request, profile);
   const double period = request.sample_period > 0.0 ? request.sample_period : kDefaultPeriod;
   requireSampleCount(context.duration, period);
@@ -95,6 +106,75 @@ PlanResult plan(const PlanRequest& request) {
   result.waypoint_times = std::move(draft.waypoint_times);
   result.notes = std::move(draft.notes);
   return result;
+}
+
+/// The result, or nothing where the limits allow none.
+std::optional<PlanResult> planIfFeasible(const PlanRequest& request, const Profile& profile) {
+  try {
+    return planAsGiven(request, profile);
+  } catch (const InputError& error) {
+    if (error.code() != AnswerCode::kLimitsInfeasible) throw;
+    return std::nullopt;
+  }
+}
+
+PlanRequest slowed(PlanRequest request, double factor) {
+  request.duration *= factor;
+  for (PathPoint& waypoint : request.waypoints) waypoint.time *= factor;
+  return request;
+}
+
+/// All given times longer by one factor, the least found: upwards in steps of 5 %, then halved.
+std::optional<PlanResult> planSlowed(const PlanRequest& request, const Profile& profile) {
+  constexpr double kStep = 1.05;
+  constexpr double kSlowest = 1e4;
+  double upper = kStep;
+  std::optional<PlanResult> best = planIfFeasible(slowed(request, upper), profile);
+  while (!best && upper < kSlowest) best = planIfFeasible(slowed(request, upper *= kStep), profile);
+  double lower = upper / kStep;
+  while (best && upper - lower > 1e-9 * upper) {
+    const double middle = 0.5 * (lower + upper);
+    std::optional<PlanResult> result = planIfFeasible(slowed(request, middle), profile);
+    (result ? upper : lower) = middle;
+    if (result) best = std::move(result);
+  }
+  return best;
+}
+
+PlanResult planStretched(const PlanRequest& request, const Profile& profile, const InputError& why) {
+  const double given = std::max(request.duration, request.waypoints.empty() ? 0.0 : request.waypoints.back().time);
+  const bool via_times = std::any_of(request.waypoints.begin(), request.waypoints.end(), [&](const PathPoint& w) {
+    return w.time > 0.0 && &w != &request.waypoints.back();
+  });
+  if (given == 0.0 && !via_times) throw why;
+  std::optional<PlanResult> result;
+  if (!via_times) {
+    result = planIfFeasible(slowed(request, 0.0), profile);
+    if (!result) throw why;
+    if (result->trajectory.duration() < given) result.reset();  // Feasible are shorter and longer ones.
+  }
+  if (!result) result = planSlowed(request, profile);
+  if (!result) throw why;
+  result->notes.insert(result->notes.begin(),
+                       "stretched to " + number(result->trajectory.duration()) + " s, as asked for: " + why.what());
+  return std::move(*result);
+}
+
+}  // namespace
+
+PlanResult plan(const PlanRequest& request) {
+  const Profile& profile = findProfile(request.profile);
+  const double stretch = validateRequest(request, profile).parameter(kStretchParameter, 0.0);
+  if (stretch != 0.0 && stretch != 1.0) {
+    throw InputError(AnswerCode::kInvalidGoal, "parameter 'stretch' is " + number(stretch) + ", it must be 0 or 1");
+  }
+  if (stretch == 0.0) return planAsGiven(request, profile);
+  try {
+    return planAsGiven(request, profile);
+  } catch (const InputError& error) {
+    if (error.code() != AnswerCode::kLimitsInfeasible) throw;
+    return planStretched(request, profile, error);
+  }
 }
 
 }  // namespace screwline

@@ -193,6 +193,14 @@ const std::vector<Profile>& registry() {
     std::vector<Profile> all = singleMoves();
     for (const auto& group : {jerkLimitedMoves(), viaMoves(), multipointMoves(), freeMotions()})
       all.insert(all.end(), group.begin(), group.end());
+    const ParameterInfo stretch{
+        kStretchParameter,
+        "1: given times that are too short for the limits are lengthened, all by one factor, to "
+        "the shortest feasible; 0 (default): they are refused",
+        false};
+    for (Profile& profile : all) {
+      if (profile.info.name != "sinusoidal") profile.info.parameters.push_back(stretch);
+    }
     return all;
   }();
   return profiles;

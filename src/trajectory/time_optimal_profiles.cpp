@@ -138,7 +138,7 @@ ProfileDraft throughWaypoints(const ProfileContext& context) {
   draft.notes.push_back("through the intermediate waypoints without a stop; with a stop at each it would take " +
                         number(search.stopDuration()) + " s");
   draft.trajectory = JointTrajectory::piecewise(std::move(pieces));
-  return draft;
+  return meetingVias(std::move(draft));
 }
 
 }  // namespace
@@ -170,7 +170,7 @@ ProfileDraft buildTimeOptimal(const ProfileContext& context) {
   ProfileDraft draft;
   draft.trajectory = trajectoryOf(*motion);
   draft.waypoint_times = {0.0, draft.trajectory.duration()};
-  return draft;
+  return meetingVias(std::move(draft));
 }
 
 ProfileDraft buildDoubleS(const ProfileContext& context) {

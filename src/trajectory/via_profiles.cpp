@@ -118,7 +118,7 @@ ProfileDraft buildViaPerJoint(const ProfileContext& context) {
     }
     return JointTrajectory::piecewise(std::move(motion));
   };
-  return fitVia(context, build);
+  return meetingVias(fitVia(context, build));
 }
 
 }  // namespace screwline

@@ -56,8 +56,8 @@ std::vector<ProfileSummary> listProfiles();
 /// A motion through the waypoints that keeps the limits, proved by exact extrema (verify.h) before it is returned.
 /// Orders that a profile makes infinite (acceleration of rectangular, jerk of cubic) are not held; notes say so.
 /// @throws InputError kUnknownProfile (lists the known ones), kLimitsInfeasible (names joint, order, value, bound and
-/// the shortest feasible duration; a given duration is never lengthened), kTooLarge, kInvalidGoal (names the field, its
-/// value and the bound).
+/// the shortest feasible duration; given times are lengthened only with the parameter `stretch`), kTooLarge,
+/// kInvalidGoal (names the field, its value and the bound).
 /// @throws Exception where the check fails: an internal error, never a trajectory.
 PlanResult plan(const PlanRequest& request);
 

@@ -18,6 +18,9 @@ enum class WaypointDerivatives {
   kAll,          ///< Velocities and accelerations of any waypoint.
 };
 
+/// Parameter of every profile that a duration is given to: 1 lengthens one that is too short.
+constexpr char kStretchParameter[] = "stretch";
+
 /// A validated request as a builder sees it.
 struct ProfileContext {
   const PlanRequest& request;
@@ -35,7 +38,14 @@ struct ProfileDraft {
   JointTrajectory trajectory;
   std::vector<double> waypoint_times;
   std::vector<std::string> notes;
+  bool meets_vias = false;  ///< Intermediate waypoints are met at their instants: verified with the rest.
 };
+
+/// The draft of a builder that meets its vias, and the velocities and accelerations that waypoints give.
+inline ProfileDraft meetingVias(ProfileDraft draft) {
+  draft.meets_vias = true;
+  return draft;
+}
 
 using ProfileBuilder = ProfileDraft (*)(const ProfileContext& context);
 

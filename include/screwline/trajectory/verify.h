@@ -3,23 +3,31 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "screwline/trajectory/limits.h"
 
 namespace screwline {
 
-/// What a motion must pass: joint j is at position(k) at instant(k).
+/// What a motion must pass: joint j is at position(j) at an instant, with velocity(j) and acceleration(j) where these
+/// are given (empty: not). At an interior corner a stepping derivative is that of the later piece.
 struct Checkpoint {
   double time = 0.0;
   VectorX position;
+  VectorX velocity;
+  VectorX acceleration;
+
+  Checkpoint(double at, VectorX where, VectorX rate = {}, VectorX rate_of_rate = {})
+      : time(at), position(std::move(where)), velocity(std::move(rate)), acceleration(std::move(rate_of_rate)) {}
 };
 
-/// Proves a motion by exact extrema of every piece, not by samples: every figure is finite, the peaks of the finite
-/// orders keep the limits, positions keep their bounds, derivatives up to the promised continuity do not step anywhere
-/// (ends joined to rest included), and the checkpoints are met. Independent of how the motion was built: it reads the
-/// trajectory only.
-/// @return nothing, or what is broken: joint, order, value and bound. Allocates only for the message.
+/// Proves a motion over all of its time, not at samples: intervals that hold all values of a stretch (enclosure.h) are
+/// narrowed until they lie within the bound. Every value is finite, the finite orders keep the limits, positions keep
+/// their bounds, derivatives up to the promised continuity do not step anywhere (ends joined to rest included), and the
+/// checkpoints, in order of time, are met. It reads the trajectory only, pieces, scalings s(tau) and sinusoids alike,
+/// and by another method than the extrema that motions are planned with.
+/// @return nothing, or what is broken: joint, order, time, value and bound.
 std::optional<std::string> verifyTrajectory(const JointTrajectory& trajectory, const Limits& limits,
                                             const std::vector<Checkpoint>& checkpoints);
 
