@@ -13,6 +13,7 @@ namespace screwline {
 namespace {
 
 constexpr double kCrossing = 1e-5;      ///< Of the gap: the first pose is (nearly) singular.
+constexpr double kStandstill = 1e-4;  ///< Of du along a curve: it only turns the joints, on a self-motion or a fold.
 constexpr double kInside = 0.03;        ///< Of u, or a tenth of the part: where such a path's branches are told apart.
 constexpr double kLookAhead = 1e-3;     ///< Of u, or a hundredth of the part: behind a fold.
 constexpr double kSameSolution = 1e-5;  ///< [rad, m]
@@ -80,7 +81,8 @@ VectorX Follower::joined(const VectorX& q, double u) const {
 bool Follower::beginsRegular(const std::vector<IkAnswer>& answers) {
   return std::all_of(answers.begin(), answers.end(), [&](const IkAnswer& answer) {
     system_.evaluate(joined(answer.position, 0.0));
-    return system_.gap() >= kCrossing;
+    const VectorX direction = system_.direction({});
+    return system_.gap() >= kCrossing && direction[chain_.size()] >= kStandstill;
   });
 }
 
@@ -138,7 +140,7 @@ void Follower::carryOn(FollowedBranch& branch) {
       branch.curve = branch.curve.segments() > 0 ? concatenate(branch.curve, traced.curve) : traced.curve;
     }
     y = traced.last;
-    branch.end_u = std::min(y[chain_.size()], goal);
+    branch.end_u = std::clamp(y[chain_.size()], 0.0, goal);
     if (traced.end != TraceEnd::kGoal) {
       explain(branch, traced, goal);
       return;
@@ -241,7 +243,7 @@ void Follower::turn(FollowedBranch& branch) const {
     branch.limit = leaving.limit;
   }
   if (!std::isfinite(earliest)) return;
-  branch.end_u = valueAt(branch.curve, chain_.size(), earliest);
+  branch.end_u = std::clamp(valueAt(branch.curve, chain_.size(), earliest), 0.0, path_.length());
   branch.reason = limitReason(chain_.joint(branch.joint), branch.limit, placeOf(path_, branch.end_u));
 }
 

@@ -86,6 +86,16 @@ std::string SingularityNames::nearest(const VectorX& q) const {
   return best != nullptr ? best->name + " (" + best->expression + ")" : "rank";
 }
 
+namespace {
+
+double uAt(const PiecewisePolynomial& curve, double arc) {
+  std::size_t k = 0;
+  while (k + 1 < curve.segments() && arc >= curve.breaks[k + 1]) ++k;
+  return curve.piece(k, curve.joints - 1)((arc - curve.breaks[k]) / curve.length(k));
+}
+
+}  // namespace
+
 std::vector<PassedSingularity> singularitiesAlong(const SerialChain& chain, const Task& task,
                                                   const PiecewisePolynomial& curve) {
   constexpr int kEach = 4;  // Places in a piece.
@@ -100,22 +110,33 @@ std::vector<PassedSingularity> singularitiesAlong(const SerialChain& chain, cons
   std::vector<double> values;
   for (const double arc : arcs) values.push_back(closeness(arc));
   const SingularityNames names(chain, task);
-  for (std::size_t k = 0; k < arcs.size(); ++k) {
-    const double before = k > 0 ? values[k - 1] : std::numeric_limits<double>::infinity();
-    const double after = k + 1 < arcs.size() ? values[k + 1] : std::numeric_limits<double>::infinity();
-    if (values[k] > before || values[k] >= after || std::min({values[k], before, after}) > 2.0 * kNear) continue;
+  for (std::size_t k = 0; k < arcs.size();) {
+    // Near means below the threshold somewhere around here: a quick dip may lie between two places.
+    std::size_t end = k;
+    while (end < arcs.size() && values[end] <= 2.0 * kNear) ++end;
+    if (end == k) {
+      ++k;
+      continue;
+    }
+    const auto first = values.begin() + static_cast<long>(k);
+    const std::size_t least = static_cast<std::size_t>(
+        std::min_element(first, values.begin() + static_cast<long>(end)) - values.begin());
     PassedSingularity place;
-    place.arc = minimum(closeness, arcs[k > 0 ? k - 1 : 0], arcs[std::min(k + 1, arcs.size() - 1)]);
+    place.arc = minimum(closeness, arcs[least > 0 ? least - 1 : 0], arcs[std::min(least + 1, arcs.size() - 1)]);
     place.closeness = closeness(place.arc);
-    if (place.closeness > kNear) continue;
     place.met = place.closeness < kMet;
     place.name = names.nearest(closeness.configuration(place.arc));
-    const std::size_t piece = static_cast<std::size_t>(
-        std::min<long>(std::upper_bound(curve.breaks.begin(), curve.breaks.end(), place.arc) - curve.breaks.begin(),
-                       static_cast<long>(curve.segments())) -
-        1);
-    place.u = curve.piece(piece, chain.size())((place.arc - curve.breaks[piece]) / curve.length(piece));
-    passed.push_back(place);
+    place.u = place.until_u = uAt(curve, place.arc);
+    std::size_t from = least;
+    std::size_t to = least;
+    while (from > k && values[from - 1] < kMet) --from;
+    while (to + 1 < end && values[to + 1] < kMet) ++to;
+    if (place.met && to > from) {
+      place.u = uAt(curve, arcs[from]);
+      place.until_u = uAt(curve, arcs[to]);
+    }
+    if (place.closeness <= kNear) passed.push_back(place);
+    k = end;
   }
   return passed;
 }

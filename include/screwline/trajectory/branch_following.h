@@ -61,7 +61,8 @@ struct PassedSingularity {
   double closeness = 0.0;  ///< Least singular value of the task Jacobian over its greatest, in units.
 };
 
-/// The places along a curve where the task Jacobian is near to losing rank: local minima of the closeness below 0.05.
+/// The places along a curve where the task Jacobian is near to losing rank: where the closeness is below 0.05, its
+/// minimum between one rise above that and the next.
 std::vector<PassedSingularity> singularitiesAlong(const SerialChain& chain, const Task& task,
                                                   const PiecewisePolynomial& curve);
 
