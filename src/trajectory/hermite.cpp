@@ -95,6 +95,30 @@ MatrixX splineVelocities(const std::vector<double>& times, const MatrixX& positi
   return velocities;
 }
 
+MatrixX naturalSplineSlopes(const std::vector<double>& times, const MatrixX& positions) {
+  const std::size_t count = times.size();
+  const Eigen::Index last = column(count - 1);
+  MatrixX slopes(positions.rows(), positions.cols());
+  const auto chord = [&](std::size_t k) -> VectorX {
+    return (positions.col(column(k + 1)) - positions.col(column(k))) / (times[k + 1] - times[k]);
+  };
+  // Thomas, as above; the end rows say 2 v[0] + v[1] = 3 chord: no acceleration.
+  std::vector<double> upper(count, 0.0);
+  upper[0] = 0.5;
+  slopes.col(0) = 1.5 * chord(0);
+  for (std::size_t k = 1; k + 1 < count; ++k) {
+    const double before = times[k] - times[k - 1];
+    const double after = times[k + 1] - times[k];
+    const double pivot = 2.0 * (before + after) - after * upper[k - 1];
+    upper[k] = before / pivot;
+    slopes.col(column(k)) =
+        (3.0 * (before * chord(k) + after * chord(k - 1)) - after * slopes.col(column(k - 1))) / pivot;
+  }
+  slopes.col(last) = (3.0 * chord(count - 2) - slopes.col(last - 1)) / (2.0 - upper[count - 2]);
+  for (std::size_t k = count - 1; k-- > 0;) slopes.col(column(k)) -= upper[k] * slopes.col(column(k + 1));
+  return slopes;
+}
+
 MatrixX splineAccelerations(const std::vector<double>& times, const MatrixX& positions, const MatrixX& velocities) {
   const std::size_t count = times.size();
   MatrixX accelerations(positions.rows(), positions.cols());

@@ -4,44 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "along_path.h"
+
 namespace screwline {
 namespace {
-
-/// Weights of the coefficients of u^k in the four derivatives by time: falling factorial * u^(k - order) / h^order.
-using Weights = std::array<std::array<double, Polynomial::kMaxDegree + 1>, 4>;
-
-void fillWeights(double u, double inverse_length, int degree, Weights& w) {
-  const double r = inverse_length;
-  double u0 = 1.0, u1 = 0.0, u2 = 0.0, u3 = 0.0;  // u^k, u^(k-1), u^(k-2), u^(k-3)
-  for (int k = 0; k <= degree; ++k) {
-    const std::size_t i = static_cast<std::size_t>(k);
-    const double f1 = k;
-    const double f2 = f1 * (k - 1);
-    w[0][i] = u0;
-    w[1][i] = f1 * u1 * r;
-    w[2][i] = f2 * u2 * (r * r);
-    w[3][i] = f2 * (k - 2) * u3 * (r * r * r);
-    u3 = u2;
-    u2 = u1;
-    u1 = u0;
-    u0 *= u;
-  }
-}
-
-/// The four sums of a block of neighbouring joints, kept in registers over all powers.
-template <int kJoints>
-void weigh(const double* c, int stride, int degree, const Weights& w, double* p, double* v, double* a, double* j) {
-  using Block = Eigen::Array<double, kJoints, 1>;
-  Block sums[4] = {Block::Zero(), Block::Zero(), Block::Zero(), Block::Zero()};
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(degree); ++k, c += stride) {
-    const Block powers = Eigen::Map<const Block>(c);
-    for (std::size_t order = 0; order < 4; ++order) sums[order] += w[order][k] * powers;
-  }
-  Eigen::Map<Block>{p} = sums[0];
-  Eigen::Map<Block>{v} = sums[1];
-  Eigen::Map<Block>{a} = sums[2];
-  Eigen::Map<Block>{j} = sums[3];
-}
 
 /// Integral of |cos| from 0 to angle.
 double cosineTravel(double angle) {
@@ -72,6 +38,26 @@ JointTrajectory JointTrajectory::scaled(VectorX start, VectorX delta, TimeLaw sc
   trajectory.start_ = std::move(start);
   trajectory.delta_ = std::move(delta);
   trajectory.scaling_ = std::move(scaling);
+  if (duration > kNoTime && !trajectory.scaling_.isCycloidal()) {
+    trajectory.table_ = ScalingTable(trajectory.scaling_.pieces(), duration);
+  }
+  return trajectory;
+}
+
+JointTrajectory JointTrajectory::alongPath(JointPath path, const TimeLaw& scaling, double duration) {
+  JointTrajectory trajectory;
+  trajectory.form_ = Form::kAlongPath;
+  trajectory.joints_ = path.joints();
+  trajectory.duration_ = duration;
+  trajectory.inverse_duration_ = duration > kNoTime ? 1.0 / duration : 0.0;
+  trajectory.scaling_ = TimeLaw(scalingAlongPath(path, scaling));
+  if (duration > kNoTime) {
+    trajectory.extrema_ = extremaAlongPath(path, trajectory.scaling_.pieces(), duration);
+    PiecewisePolynomial u = trajectory.scaling_.pieces();
+    for (double& c : u.coefficients) c *= path.length();
+    trajectory.table_ = ScalingTable(u, duration);
+  }
+  trajectory.path_ = std::move(path);
   return trajectory;
 }
 
@@ -79,8 +65,11 @@ JointTrajectory JointTrajectory::piecewise(PiecewisePolynomial motion) {
   JointTrajectory trajectory;
   trajectory.joints_ = motion.joints;
   trajectory.duration_ = motion.duration();
+  trajectory.breaks_ = BreakTable(motion.breaks);
+  trajectory.stride_ = static_cast<std::size_t>(motion.degree + 1) * static_cast<std::size_t>(motion.joints);
   for (std::size_t k = 0; k < motion.segments(); ++k) {
-    trajectory.inverse_lengths_.push_back(motion.length(k) > kNoTime ? 1.0 / motion.length(k) : 0.0);
+    const double inverse = motion.length(k) > kNoTime ? 1.0 / motion.length(k) : 0.0;
+    trajectory.spans_.push_back({motion.breaks[k], motion.breaks[k + 1], inverse});
   }
   trajectory.pieces_ = std::move(motion);
   return trajectory;
@@ -98,13 +87,27 @@ JointTrajectory JointTrajectory::sinusoidal(Sinusoid motion, double duration) {
 int JointTrajectory::continuity() const {
   if (form_ == Form::kScaled) return scaling_.continuity();
   if (form_ == Form::kSinusoidal) return 3;
+  if (form_ == Form::kAlongPath) return pathContinuity();
   const bool joins_rest = pieces_.starts_at_rest || pieces_.ends_at_rest;
   return joins_rest ? std::min(pieces_.continuity, pieces_.rest_continuity) : pieces_.continuity;
 }
 
+/// A path that turns is stopped at, so its motion may be smoother than the path: what steps decides.
+int JointTrajectory::pathContinuity() const {
+  const PiecewisePolynomial& s = scaling_.pieces();
+  const bool joins_rest = s.starts_at_rest || s.ends_at_rest;
+  int continuity = joins_rest ? std::min(s.continuity, s.rest_continuity) : s.continuity;
+  if (path_.curve().continuity > 0) continuity = std::min(continuity, path_.curve().continuity);
+  for (const JointExtrema& e : extrema_) {
+    if (std::isinf(e.peak(3))) continuity = std::min(continuity, 1);
+    if (std::isinf(e.peak(2))) continuity = 0;
+  }
+  return continuity;
+}
+
 std::vector<double> JointTrajectory::corners() const {
   std::vector<double> corners;
-  if (form_ == Form::kScaled) {
+  if (form_ == Form::kScaled || form_ == Form::kAlongPath) {
     for (double tau : scaling_.breaks()) corners.push_back(tau * duration_);
   } else if (form_ == Form::kPiecewise && pieces_.breaks.size() > 2) {
     corners.assign(pieces_.breaks.begin() + 1, pieces_.breaks.end() - 1);
@@ -118,16 +121,20 @@ void JointTrajectory::sample(double t, TrajectoryPoint& point) const {
 }
 
 void JointTrajectory::sample(double t, double* position, double* velocity, double* acceleration, double* jerk) const {
+  const SampleOutput output{position, velocity, acceleration, jerk};
   const double inside = std::min(std::max(t, 0.0), duration_);
   switch (form_) {
     case Form::kScaled:
-      sampleScaled(inside, position, velocity, acceleration, jerk);
+      sampleScaled(inside, output);
+      break;
+    case Form::kAlongPath:
+      samplePath(inside, output);
       break;
     case Form::kPiecewise:
-      samplePieces(inside, position, velocity, acceleration, jerk);
+      samplePieces(inside, output);
       break;
     case Form::kSinusoidal:
-      sampleSinusoid(inside, position, velocity, acceleration, jerk);
+      sampleSinusoid(inside, output);
       break;
   }
   if (t < 0.0 || t > duration_) {
@@ -137,59 +144,63 @@ void JointTrajectory::sample(double t, double* position, double* velocity, doubl
   }
 }
 
-void JointTrajectory::sampleScaled(double t, double* p, double* v, double* a, double* j) const {
+void JointTrajectory::sampleScaled(double t, const SampleOutput& output) const {
+  if (!table_.empty()) {
+    scaleDelta(table_.at(t), start_.data(), delta_.data(), joints_, output);
+    return;
+  }
   const double r = inverse_duration_;
   // t / T may round to just below 1 at t = T; the end is exactly the end.
   const ScalingSample s = scaling_.at(t >= duration_ && duration_ > 0.0 ? 1.0 : t * r);
-  const double ds = s.ds * r;
-  const double dds = s.dds * (r * r);
-  const double ddds = s.ddds * (r * r * r);
-  const double* start = start_.data();
-  const double* delta = delta_.data();
-  for (int i = 0; i < joints_; ++i) {
-    p[i] = start[i] + delta[i] * s.s;
-    v[i] = delta[i] * ds;
-    a[i] = delta[i] * dds;
-    j[i] = delta[i] * ddds;
-  }
+  const double row[] = {s.s, s.ds * r, s.dds * (r * r), s.ddds * (r * r * r)};
+  scaleDelta(row, start_.data(), delta_.data(), joints_, output);
 }
 
-void JointTrajectory::samplePieces(double t, double* p, double* v, double* a, double* j) const {
-  if (pieces_.segments() == 0) return;
-  std::size_t segment = 0;
-  if (pieces_.segments() > 1) {
-    const auto after = std::upper_bound(pieces_.breaks.begin() + 1, pieces_.breaks.end() - 1, t);
-    segment = static_cast<std::size_t>(after - pieces_.breaks.begin()) - 1;
-  }
-  const double inverse = inverse_lengths_[segment];
-  const bool at_end = t >= pieces_.breaks[segment + 1] && inverse > 0.0;
-  const double u = at_end ? 1.0 : (t - pieces_.breaks[segment]) * inverse;
-  Weights w;
-  fillWeights(u, inverse, pieces_.degree, w);
-  const double* c = pieces_.coefficients.data() +
-                    segment * static_cast<std::size_t>(pieces_.degree + 1) * static_cast<std::size_t>(joints_);
-  int i = 0;
-  for (; i + 4 <= joints_; i += 4) weigh<4>(c + i, joints_, pieces_.degree, w, p + i, v + i, a + i, j + i);
-  for (; i + 2 <= joints_; i += 2) weigh<2>(c + i, joints_, pieces_.degree, w, p + i, v + i, a + i, j + i);
-  if (i < joints_) weigh<1>(c + i, joints_, pieces_.degree, w, p + i, v + i, a + i, j + i);
+void JointTrajectory::samplePath(double t, const SampleOutput& output) const {
+  double u[4] = {0.0, 0.0, 0.0, 0.0};  // And its derivatives by time.
+  if (!table_.empty()) evaluateScaling(table_.at(t), u);
+  const std::size_t k = path_.segmentAt(u[0]);
+  const double r = path_.inverseLength(k);
+  const double x = std::min(std::max((u[0] - path_.breaks()[k]) * r, 0.0), 1.0);
+  const double d1 = u[1] * r, d2 = u[2] * r, d3 = u[3] * r;
+  evaluateSegment(path_.segment(k), x, {d1, d2, d1 * d1, d3, 3.0 * d1 * d2, d1 * d1 * d1}, output);
 }
 
-void JointTrajectory::sampleSinusoid(double t, double* p, double* v, double* a, double* j) const {
+void JointTrajectory::samplePieces(double t, const SampleOutput& output) const {
+  if (spans_.empty()) return;
+  const std::size_t k = spans_.size() == 1 ? 0 : breaks_.find(t);
+  const Span& span = spans_[k];
+  const double r = span.inverse_length;
+  const double x = t >= span.end && r > 0.0 ? 1.0 : (t - span.start) * r;
+  const SegmentCoefficients segment{pieces_.coefficients.data() + k * stride_, joints_, pieces_.degree};
+  evaluateSegment(segment, x, {r, 0.0, r * r, 0.0, 0.0, r * r * r}, output);
+}
+
+void JointTrajectory::sampleSinusoid(double t, const SampleOutput& output) const {
   for (int i = 0; i < joints_; ++i) {
     const double omega = sinusoid_.omega[i];
     const double angle = omega * t + sinusoid_.phase[i];
     const double sine = sinusoid_.amplitude[i] * std::sin(angle);
     const double cosine = sinusoid_.amplitude[i] * std::cos(angle);
-    p[i] = sinusoid_.offset[i] + sine;
-    v[i] = omega * cosine;
-    a[i] = -omega * omega * sine;
-    j[i] = -omega * omega * omega * cosine;
+    output.position[i] = sinusoid_.offset[i] + sine;
+    output.velocity[i] = omega * cosine;
+    output.acceleration[i] = -omega * omega * sine;
+    output.jerk[i] = -omega * omega * omega * cosine;
   }
 }
 
 JointExtrema JointTrajectory::extrema(int joint) const {
   if (form_ == Form::kPiecewise) return pieces_.extrema(joint);
+  if (form_ == Form::kAlongPath) return pathExtrema(joint);
   return form_ == Form::kScaled ? scaledExtrema(joint) : sinusoidExtrema(joint);
+}
+
+JointExtrema JointTrajectory::pathExtrema(int joint) const {
+  if (!extrema_.empty()) return extrema_[static_cast<std::size_t>(joint)];
+  JointExtrema rest;
+  const double q = path_.curve().at(0, 0, joint);
+  rest.position = {q, q};
+  return rest;
 }
 
 JointExtrema JointTrajectory::scaledExtrema(int joint) const {

@@ -84,27 +84,7 @@ TimeLaw TimeLaw::via6(double via_s, double via_tau) {
 }
 
 TimeLaw::TimeLaw(PiecewisePolynomial pieces)
-    : pieces_(std::move(pieces)), extrema_(pieces_.extrema(0)), continuity_(pieces_.continuity) {
-  for (std::size_t segment = 0; segment < pieces_.segments(); ++segment) {
-    Piece piece;
-    piece.start = pieces_.breaks[segment];
-    piece.inverse_length = 1.0 / pieces_.length(segment);
-    Polynomial derivative = pieces_.piece(segment, 0);
-    double rate = 1.0;
-    for (std::size_t order = 0; order < 4; ++order) {
-      for (std::size_t k = 0; k < piece.rows.size(); ++k) piece.rows[k][order] = derivative.c[k] * rate;
-      derivative = derivative.derivative();
-      rate *= piece.inverse_length;
-    }
-    table_.push_back(piece);
-  }
-}
-
-const TimeLaw::Piece& TimeLaw::find(double tau) const {
-  std::size_t k = table_.size() - 1;
-  while (k > 0 && tau < table_[k].start) --k;
-  return table_[k];
-}
+    : pieces_(std::move(pieces)), table_(pieces_), extrema_(pieces_.extrema(0)), continuity_(pieces_.continuity) {}
 
 ScalingSample TimeLaw::at(double tau) const {
   tau = std::min(std::max(tau, 0.0), 1.0);
@@ -113,19 +93,9 @@ ScalingSample TimeLaw::at(double tau) const {
     const double cosine = std::cos(kTwoPi * tau);
     return {tau - sine / kTwoPi, 1.0 - cosine, kTwoPi * sine, kTwoPi * kTwoPi * cosine};
   }
-  const Piece& piece = find(tau);
-  const double u = (tau - piece.start) * piece.inverse_length;
-  const double u2 = u * u;
-  const double u4 = u2 * u2;
-  const auto& r = piece.rows;
-  std::array<double, 4> out;
-  // Estrin's scheme: the pairs do not wait for each other, and the four orders share one pass.
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double low = (r[0][i] + r[1][i] * u) + (r[2][i] + r[3][i] * u) * u2;
-    const double high = (r[4][i] + r[5][i] * u) + (r[6][i] + r[7][i] * u) * u2;
-    out[i] = low + high * u4;
-  }
-  return {out[0], out[1], out[2], out[3]};
+  std::array<double, 4> values;
+  evaluateScaling(table_.at(tau), values.data());
+  return {values[0], values[1], values[2], values[3]};
 }
 
 bool TimeLaw::isMonotone() const {

@@ -34,6 +34,9 @@ PiecewisePolynomial quinticsThrough(const std::vector<double>& times, const Matr
 MatrixX splineVelocities(const std::vector<double>& times, const MatrixX& positions, const VectorX& first_velocity,
                          const VectorX& last_velocity);
 
+/// The same with zero acceleration at both ends (the natural spline).
+MatrixX naturalSplineSlopes(const std::vector<double>& times, const MatrixX& positions);
+
 /// Accelerations (n x N) at the knots of those cubics.
 MatrixX splineAccelerations(const std::vector<double>& times, const MatrixX& positions, const MatrixX& velocities);
 

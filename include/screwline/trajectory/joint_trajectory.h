@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "screwline/spatial/pose.h"
+#include "screwline/trajectory/path.h"
 #include "screwline/trajectory/piecewise_polynomial.h"
 #include "screwline/trajectory/time_law.h"
 
@@ -34,7 +35,8 @@ struct Sinusoid {
 };
 
 /// An immutable motion of n joints over [0, duration]. Pure: the same t gives the same answer, nothing is remembered
-/// between calls. Three forms: one scaling for all joints (start + delta s(t/T)), piecewise polynomials, sinusoids.
+/// between calls. Four forms: one scaling for all joints (start + delta s(t/T)), one scaling along a path
+/// (q(length s(t/T))), piecewise polynomials, sinusoids.
 /// Outside the interval the ends are held with zero derivatives; at 0 and at the duration derivatives have their values
 /// from inside, at an interior breakpoint those of the later piece.
 class JointTrajectory {
@@ -43,6 +45,8 @@ class JointTrajectory {
 
   /// start + delta s(t / duration). @pre equal sizes, duration >= 0 (at 0 it rests at start).
   static JointTrajectory scaled(VectorX start, VectorX delta, TimeLaw scaling, double duration);
+  /// path(length s(t / duration)). @pre the scaling never turns back; duration >= 0 (at 0 it rests at the start).
+  static JointTrajectory alongPath(JointPath path, const TimeLaw& scaling, double duration);
   static JointTrajectory piecewise(PiecewisePolynomial motion);
   /// @pre equal sizes, duration >= 0.
   static JointTrajectory sinusoidal(Sinusoid motion, double duration);
@@ -66,17 +70,27 @@ class JointTrajectory {
   JointExtrema extrema(int joint) const;
 
   /// The common scaling s(tau), nullptr where the motion has none.
-  const TimeLaw* scaling() const { return form_ == Form::kScaled ? &scaling_ : nullptr; }
+  const TimeLaw* scaling() const { return form_ == Form::kScaled || form_ == Form::kAlongPath ? &scaling_ : nullptr; }
+  /// The path that the scaling moves along, nullptr in the other forms.
+  const JointPath* path() const { return form_ == Form::kAlongPath ? &path_ : nullptr; }
   /// The polynomial pieces, nullptr in the other forms.
   const PiecewisePolynomial* pieces() const { return form_ == Form::kPiecewise ? &pieces_ : nullptr; }
 
  private:
-  enum class Form { kPiecewise, kScaled, kSinusoidal };
+  enum class Form { kPiecewise, kScaled, kAlongPath, kSinusoidal };
+  struct Span {
+    double start = 0.0;
+    double end = 0.0;
+    double inverse_length = 0.0;  ///< 0 for a piece that takes no time.
+  };
 
-  void sampleScaled(double t, double* p, double* v, double* a, double* j) const;
-  void samplePieces(double t, double* p, double* v, double* a, double* j) const;
-  void sampleSinusoid(double t, double* p, double* v, double* a, double* j) const;
+  void sampleScaled(double t, const SampleOutput& output) const;
+  void samplePath(double t, const SampleOutput& output) const;
+  void samplePieces(double t, const SampleOutput& output) const;
+  void sampleSinusoid(double t, const SampleOutput& output) const;
+  int pathContinuity() const;
   JointExtrema scaledExtrema(int joint) const;
+  JointExtrema pathExtrema(int joint) const;
   JointExtrema sinusoidExtrema(int joint) const;
 
   Form form_ = Form::kPiecewise;
@@ -86,8 +100,13 @@ class JointTrajectory {
   VectorX start_;
   VectorX delta_;
   TimeLaw scaling_ = TimeLaw::rectangular();
+  ScalingTable table_;  ///< s, or u along a path, by time.
+  JointPath path_;
+  std::vector<JointExtrema> extrema_;  ///< Along a path: of each joint.
   PiecewisePolynomial pieces_;
-  std::vector<double> inverse_lengths_;
+  BreakTable breaks_;  ///< Of the pieces.
+  std::vector<Span> spans_;
+  std::size_t stride_ = 0;
   Sinusoid sinusoid_;
 };
 

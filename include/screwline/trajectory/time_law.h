@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "screwline/trajectory/piecewise_polynomial.h"
+#include "screwline/trajectory/scaling_table.h"
 
 namespace screwline {
 
@@ -56,18 +57,10 @@ class TimeLaw {
   std::vector<double> breaks() const;  ///< tau of the interior breakpoints.
 
  private:
-  /// Row k holds the coefficients of u^k in s, s', s'', s''' (by tau), so that one pass gives all four.
-  struct Piece {
-    double start = 0.0;
-    double inverse_length = 1.0;
-    std::array<std::array<double, 4>, Polynomial::kMaxDegree + 1> rows{};
-  };
-
   TimeLaw() = default;
-  const Piece& find(double tau) const;
 
   PiecewisePolynomial pieces_;
-  std::vector<Piece> table_;
+  ScalingTable table_;  ///< Empty for the cycloidal scaling.
   JointExtrema extrema_;
   int continuity_ = 2;
   bool cycloidal_ = false;

@@ -1,0 +1,59 @@
+#ifndef SCREWLINE_TRAJECTORY_RETIME_H
+#define SCREWLINE_TRAJECTORY_RETIME_H
+
+#include <functional>
+#include <vector>
+
+#include "screwline/trajectory/limits.h"
+#include "screwline/trajectory/path.h"
+#include "screwline/trajectory/time_law.h"
+
+namespace screwline {
+
+/// The greatest du/dt that something besides the joints allows anywhere on [from, to] of the path (a tool's speed over
+/// its speed per u); infinity where nothing does. Called once per grid interval, from 0 to the end.
+using RateBound = std::function<double(double from, double to)>;
+
+struct RetimeOptions {
+  int grid_points = 0;      ///< Intervals of the grid besides the path's breakpoints; 0: chosen by the path.
+  double start_rate = 0.0;  ///< du/dt at the start, >= 0.
+  double end_rate = 0.0;    ///< du/dt at the end, >= 0.
+  RateBound rate_bound;     ///< Empty: none.
+};
+
+enum class RetimeStatus {
+  kDone,
+  kEndTooFast,    ///< end_rate cannot be reached within the limits; end_rate of the result could.
+  kStartTooFast,  ///< No motion with this start_rate keeps the limits; start_rate of the result could.
+};
+
+/// One point of the grid: where the motion is, how fast, and which limit holds it there.
+struct RetimedPoint {
+  double u = 0.0;
+  double rate = 0.0;   ///< du/dt.
+  double bound = 0.0;  ///< The greatest du/dt at which the velocity limits (and rate_bound) hold around here.
+};
+
+struct RetimeResult {
+  RetimeStatus status = RetimeStatus::kDone;
+  double duration = 0.0;                 ///< [s]
+  TimeLaw law = TimeLaw::rectangular();  ///< u = length s(t / duration); it has a break wherever the path has one.
+  std::vector<RetimedPoint> points;
+  double start_rate = 0.0;  ///< As asked, or the greatest feasible one where that was too fast.
+  double end_rate = 0.0;
+};
+
+/// The shortest motion along a path under the velocity and acceleration limits (and the jerk limits where they are
+/// finite: then a feasible one that is longer, not proved shortest). The limits hold everywhere, between grid points
+/// too: over each interval acceleration by u is constant, so joint accelerations are polynomials of u, whose control
+/// points in Bernstein form are held within the limits. Reachability analysis (Pham & Pham, arXiv 1707.07239):
+/// backwards the interval of speeds from which the end can be reached, one linear program of two variables per grid
+/// interval, forwards the fastest within them. Linear in grid points. A path that turns is stopped at. Position limits
+/// are not read. JointTrajectory::alongPath(path, law, duration) is the motion.
+/// @pre path has a length and moves; limits of its joints, positive. @throws InputError(kInvalidGoal) otherwise or
+/// where no limit bounds the motion.
+RetimeResult retime(const JointPath& path, const Limits& limits, const RetimeOptions& options = {});
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_TRAJECTORY_RETIME_H

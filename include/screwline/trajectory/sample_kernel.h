@@ -1,0 +1,56 @@
+#ifndef SCREWLINE_TRAJECTORY_SAMPLE_KERNEL_H
+#define SCREWLINE_TRAJECTORY_SAMPLE_KERNEL_H
+
+namespace screwline {
+
+/// Coefficients of the polynomials of all joints over one segment, as [power][joint].
+struct SegmentCoefficients {
+  const double* c = nullptr;
+  int joints = 0;
+  int degree = 0;
+};
+
+/// How derivatives by the segment's own x (P1, P2, P3) become those by time: v = v1 P1, a = a1 P1 + a2 P2,
+/// j = j1 P1 + j2 P2 + j3 P3. With x linear in time a1, j1 and j2 are zero; else it is the chain rule.
+struct ChainFactors {
+  double v1 = 0.0;
+  double a1 = 0.0;
+  double a2 = 0.0;
+  double j1 = 0.0;
+  double j2 = 0.0;
+  double j3 = 0.0;
+};
+
+/// Where a sample goes: n values each.
+struct SampleOutput {
+  double* position = nullptr;
+  double* velocity = nullptr;
+  double* acceleration = nullptr;
+  double* jerk = nullptr;
+};
+
+/// Position and three derivatives of all joints in one pass of Horner's scheme, neighbouring joints side by side in a
+/// register; which registers there are is decided when it runs. Does not allocate.
+void evaluateSegment(const SegmentCoefficients& segment, double x, const ChainFactors& chain,
+                     const SampleOutput& output);
+
+/// The polynomial piece of a scalar s: row k holds the coefficients of x^k in s, s', s'', s''' (4 values), all rows up
+/// to x^7 or, where not long, to x^3.
+struct ScalingRows {
+  const double* rows = nullptr;
+  bool long_rows = true;
+  double x = 0.0;  ///< In [0, 1].
+};
+
+/// s and its three derivatives into 4 values. Does not allocate.
+void evaluateScaling(const ScalingRows& scaling, double* values);
+
+/// One scalar for all joints: start + delta s, delta s', delta s'', delta s'''. Does not allocate.
+void scaleDelta(const ScalingRows& scaling, const double* start, const double* delta, int joints,
+                const SampleOutput& output);
+/// The same from the 4 values.
+void scaleDelta(const double* values, const double* start, const double* delta, int joints, const SampleOutput& output);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_TRAJECTORY_SAMPLE_KERNEL_H

@@ -1,0 +1,49 @@
+#ifndef SCREWLINE_TRAJECTORY_SCALING_TABLE_H
+#define SCREWLINE_TRAJECTORY_SCALING_TABLE_H
+
+#include <vector>
+
+#include "screwline/trajectory/break_table.h"
+#include "screwline/trajectory/piecewise_polynomial.h"
+#include "screwline/trajectory/sample_kernel.h"
+
+namespace screwline {
+
+/// A scalar s(t) from polynomial pieces, laid out to be sampled: for each piece, rows of the coefficients of x^k in s,
+/// s', s'', s''', so that one pass gives all four.
+class ScalingTable {
+ public:
+  ScalingTable() = default;
+
+  /// @param pieces of one joint with breaks from 0. @param stretch how much longer the motion takes than the breaks say
+  /// (derivatives are by the stretched time). Allocates.
+  explicit ScalingTable(const PiecewisePolynomial& pieces, double stretch = 1.0);
+
+  bool empty() const { return spans_.empty(); }
+
+  /// The rows that hold at t and the place of t in their piece; at a breakpoint the later piece's, outside the range
+  /// the nearer end. Does not allocate.
+  ScalingRows at(double t) const {
+    const std::size_t k = spans_.size() == 1 ? 0 : breaks_.find(t);
+    const Span& span = spans_[k];
+    const double x = t < span.end ? (t - span.start) * span.inverse_length : 1.0;
+    return {rows_.data() + k * stride_, long_rows_, x > 0.0 ? x : 0.0};
+  }
+
+ private:
+  struct Span {
+    double start = 0.0;
+    double end = 0.0;
+    double inverse_length = 1.0;
+  };
+
+  BreakTable breaks_;
+  std::vector<Span> spans_;
+  std::vector<double> rows_;
+  std::size_t stride_ = 32;
+  bool long_rows_ = true;  ///< 8 rows for each piece, else 4.
+};
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_TRAJECTORY_SCALING_TABLE_H
