@@ -13,7 +13,7 @@ namespace screwline {
 namespace {
 
 constexpr double kCrossing = 1e-5;      ///< Of the gap: the first pose is (nearly) singular.
-constexpr double kStandstill = 1e-4;  ///< Of du along a curve: it only turns the joints, on a self-motion or a fold.
+constexpr double kStandstill = 1e-4;    ///< Of du along a curve: it only turns the joints, on a self-motion or a fold.
 constexpr double kInside = 0.03;        ///< Of u, or a tenth of the part: where such a path's branches are told apart.
 constexpr double kLookAhead = 1e-3;     ///< Of u, or a hundredth of the part: behind a fold.
 constexpr double kSameSolution = 1e-5;  ///< [rad, m]

@@ -51,23 +51,23 @@ void noteInfiniteOrders(const JointTrajectory& trajectory, const std::string& pr
   }
 }
 
-MatrixX viaErrors(const ProfileDraft& draft, const std::vector<PathPoint>& waypoints) {
+MatrixX viaErrors(const ProfileDraft& draft, const std::vector<VectorX>& waypoints) {
   const Eigen::Index vias = waypoints.size() > 2 ? static_cast<Eigen::Index>(waypoints.size()) - 2 : 0;
   MatrixX errors(vias, draft.trajectory.joints());
   TrajectoryPoint point(draft.trajectory.joints());
   for (Eigen::Index i = 0; i < vias; ++i) {
     const std::size_t waypoint = static_cast<std::size_t>(i) + 1;
     draft.trajectory.sample(draft.waypoint_times[waypoint], point);
-    errors.row(i) = (point.position - waypoints[waypoint].position).transpose();
+    errors.row(i) = (point.position - waypoints[waypoint]).transpose();
   }
   return errors;
 }
 
 void verifyDraft(const ProfileContext& context, const ProfileDraft& draft) {
   std::vector<Checkpoint> ends;
-  if (context.waypoints().size() >= 2) {
-    ends.push_back({0.0, context.waypoints().front().position});
-    ends.push_back({draft.trajectory.duration(), context.waypoints().back().position});
+  if (draft.waypoints.size() >= 2) {
+    ends.push_back({0.0, draft.waypoints.front()});
+    ends.push_back({draft.trajectory.duration(), draft.waypoints.back()});
   }
   if (const auto broken = verifyTrajectory(draft.trajectory, context.limits, ends)) {
     throw Exception("internal error: profile '" + context.request.profile + "' failed its check: " + *broken);
@@ -83,6 +83,9 @@ PlanResult plan(const PlanRequest& request) {
   requireSampleCount(context.duration, period);
 
   ProfileDraft draft = profile.build(context);
+  if (draft.waypoints.empty()) {
+    for (const PathPoint& waypoint : request.waypoints) draft.waypoints.push_back(waypoint.position);
+  }
   requireSampleCount(draft.trajectory.duration(), period);
   requirePositionBounds(draft.trajectory, context.limits, request.profile);
   verifyDraft(context, draft);
@@ -90,9 +93,10 @@ PlanResult plan(const PlanRequest& request) {
 
   PlanResult result;
   result.sample_period = period;
-  result.via_joint_errors = viaErrors(draft, request.waypoints);
+  result.via_joint_errors = viaErrors(draft, draft.waypoints);
   result.trajectory = std::move(draft.trajectory);
   result.waypoint_times = std::move(draft.waypoint_times);
+  result.waypoints = std::move(draft.waypoints);
   result.notes = std::move(draft.notes);
   return result;
 }

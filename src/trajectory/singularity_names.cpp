@@ -119,8 +119,8 @@ std::vector<PassedSingularity> singularitiesAlong(const SerialChain& chain, cons
       continue;
     }
     const auto first = values.begin() + static_cast<long>(k);
-    const std::size_t least = static_cast<std::size_t>(
-        std::min_element(first, values.begin() + static_cast<long>(end)) - values.begin());
+    const std::size_t least =
+        static_cast<std::size_t>(std::min_element(first, values.begin() + static_cast<long>(end)) - values.begin());
     PassedSingularity place;
     place.arc = minimum(closeness, arcs[least > 0 ? least - 1 : 0], arcs[std::min(least + 1, arcs.size() - 1)]);
     place.closeness = closeness(place.arc);

@@ -55,6 +55,7 @@ FollowResult followPath(const InverseKinematics& solver, const ToolPath& path, c
 /// A singularity on or beside a followed curve.
 struct PassedSingularity {
   double u = 0.0;
+  double until_u = 0.0;    ///< Greater than u where the curve stays in it for a while.
   double arc = 0.0;        ///< Of the curve.
   std::string name;        ///< "wrist", with its condition: "wrist (sin(theta5) = 0)".
   bool met = false;        ///< Exactly, to rounding; else passed by.

@@ -35,6 +35,7 @@ struct ProfileDraft {
   JointTrajectory trajectory;
   std::vector<double> waypoint_times;
   std::vector<std::string> notes;
+  std::vector<VectorX> waypoints = {};  ///< Joint values of each where they were solved; empty: the request's.
 };
 
 using ProfileBuilder = ProfileDraft (*)(const ProfileContext& context);
@@ -47,6 +48,7 @@ struct Profile {
   bool via_times = false;  ///< Whether the instant of an intermediate waypoint may be given.
   WaypointDerivatives derivatives = WaypointDerivatives::kNone;
   ProfileBuilder build = nullptr;
+  bool cartesian = false;  ///< Takes poses; needs the request's kinematics.
 };
 
 /// @throws InputError(kUnknownProfile) listing the known ones.
@@ -94,6 +96,8 @@ ProfileDraft buildBspline(const ProfileContext& context);  // bspline_profiles.c
 ProfileDraft buildBsplineInterpolating(const ProfileContext& context);
 ProfileDraft buildDoubleS(const ProfileContext& context);  // time_optimal_profiles.cpp
 ProfileDraft buildTimeOptimal(const ProfileContext& context);
+ProfileDraft buildCartesianLine(const ProfileContext& context);  // cartesian_profiles.cpp
+ProfileDraft buildCartesianArc(const ProfileContext& context);
 
 }  // namespace screwline
 
