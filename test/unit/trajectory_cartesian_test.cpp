@@ -115,8 +115,8 @@ TEST(CartesianLine, PassesThroughTheAlignedWrist) {
 }
 
 TEST(CartesianLine, SlowsDownBesideTheAlignedWristAndSaysSo) {
-  Arm arm("puma560");
-  const VectorX middle = vector({0.3, -0.7, 0.6, 0.0, 0.0, -0.9});
+  const Arm arm("kr6_r900");  // Its fourth joint makes a half turn within limits.
+  const VectorX middle = vector({0.3, -1.0, 1.2, 0.0, 0.0, -0.2});
   const Pose M = forwardKinematics(arm.chain, middle);
   Matrix6X J(6, 6);
   geometricJacobian(arm.chain, middle, J);
@@ -151,8 +151,9 @@ TEST(CartesianLine, StartsAndEndsOnTheEdgeOfTheWorkspace) {
 }
 
 TEST(CartesianLine, NamesTheJointWhoseLimitEndsTheWay) {
-  const Arm arm("scara");
-  const VectorX q = vector({0.2, 0.6, 0.05, 0.1});
+  const Arm arm("scara_600");
+  VectorX q = 0.5 * (arm.chain.lower() + arm.chain.upper());
+  q[1] = 0.6;
   const Pose A = forwardKinematics(arm.chain, q);
   const double depth = arm.chain.upper()[2] - arm.chain.lower()[2];
   const PlanRequest request = arm.request("cartesian_line", {A, moved(A, 0.0, 0.0, 2.0 * depth)}, q);
@@ -243,9 +244,14 @@ TEST(CartesianLine, RefusesWhatItCannotMean) {
   PlanRequest line = arm.request("cartesian_arc", {A, B, moved(A, 0.2, 0.0, 0.0)}, pumaPlace());
   EXPECT_EQ(errorOf(line), AnswerCode::kInvalidGoal);
   PlanRequest joints = arm.request("cartesian_line", {A, B}, pumaPlace());
-  joints.waypoints[1].position = pumaPlace().array() + 0.1;
-  joints.waypoints[1].position[4] = -0.5;
-  EXPECT_EQ(errorOf(joints), AnswerCode::kSuccess) << "its pose is reached from here";
+  joints.waypoints[1].position = pumaPlace();
+  joints.waypoints[1].position[3] += 1.0;
+  EXPECT_EQ(errorOf(joints), AnswerCode::kSuccess);
+  joints.waypoints[1].position[3] -= kPi;
+  joints.waypoints[1].position[4] *= -1.0;
+  joints.waypoints[1].position[5] += kPi;
+  EXPECT_EQ(errorOf(joints), AnswerCode::kPathNotContinuous);
+  EXPECT_TRUE(mentions(messageOf(joints), "give it as a pose")) << messageOf(joints);
   PlanRequest nothing = arm.request("cartesian_line", {A, A}, pumaPlace());
   EXPECT_EQ(plan(nothing).trajectory.duration(), 0.0);
 }
