@@ -40,10 +40,10 @@ TimeScaling scalingOf(const JointTrajectory& trajectory, const std::vector<doubl
   return message;
 }
 
-VectorX goalOf(const PlanRequest& request, const JointTrajectory& trajectory) {
-  if (request.waypoints.size() >= 2) return request.waypoints.back().position;
-  TrajectoryPoint end(trajectory.joints());
-  trajectory.sample(trajectory.duration(), end);
+VectorX goalOf(const PlanResult& result) {
+  if (result.waypoints.size() >= 2) return result.waypoints.back();
+  TrajectoryPoint end(result.trajectory.joints());
+  result.trajectory.sample(result.trajectory.duration(), end);
   return end.position;
 }
 
@@ -69,14 +69,14 @@ void TrajectoryPlanner::noteAssumedLimits(const PlanTrajectory::Request& request
   note(request.jerk_limits, &JointLimits::jerk_assumed, "jerk");
 }
 
-void TrajectoryPlanner::fillViaErrors(const PlanRequest& request, const PlanResult& result,
-                                      PlanTrajectory::Response& response, std::vector<std::string>& notes) const {
+void TrajectoryPlanner::fillViaErrors(const PlanResult& result, PlanTrajectory::Response& response,
+                                      std::vector<std::string>& notes) const {
   const SerialChain& chain = *robot_.chain;
   const MatrixX errors = result.via_joint_errors.cwiseAbs();
   response.via_joint_errors = rowMajor(errors);
   Eigen::Index missed = 0;
   for (Eigen::Index i = 0; i < errors.rows(); ++i) {
-    const VectorX& wanted = request.waypoints[static_cast<std::size_t>(i) + 1].position;
+    const VectorX& wanted = result.waypoints[static_cast<std::size_t>(i) + 1];
     const Pose target = forwardKinematics(chain, wanted);
     const Pose met = forwardKinematics(chain, wanted + result.via_joint_errors.row(i).transpose());
     response.via_position_errors.push_back((met.p - target.p).norm());
@@ -110,10 +110,10 @@ Outcome TrajectoryPlanner::plan(const PlanTrajectory::Request& request, const Ve
   response.trajectory = std::move(samples.message);
   response.jerks = std::move(samples.jerks);
   response.time_scaling = scalingOf(result.trajectory, samples.times);
-  fillViaErrors(question, result, response, notes);
+  fillViaErrors(result, response, notes);
   const Limits limits = scaledLimits(question.limits, orOne(question.velocity_scaling),
                                      orOne(question.acceleration_scaling), orOne(question.jerk_scaling));
-  response.metrics = metricsOf(robot_.chain, result.trajectory, limits, goalOf(question, result.trajectory));
+  response.metrics = metricsOf(robot_.chain, result.trajectory, limits, goalOf(result));
   planned = {std::move(result.trajectory), response.trajectory, response.metrics};
   return {AnswerCode::kSuccess, joined(notes)};
 }

@@ -5,6 +5,7 @@
 #include "screwline/ros/joint_values.h"
 #include "screwline/ros/trajectory_conversions.h"
 #include "screwline/ros/trajectory_planner.h"
+#include "screwline/trajectory/profile.h"
 
 namespace screwline {
 namespace ros_bridge {
@@ -97,12 +98,16 @@ IkResult TrajectoryPlanner::ask(const IkRequest& question, const std::string& fi
   }
 }
 
-VectorX TrajectoryPlanner::solve(const Waypoint& waypoint, const std::string& field, PoseSeed& seed,
-                                 std::vector<std::string>& notes) const {
+Pose TrajectoryPlanner::poseOf(const Waypoint& waypoint, const std::string& field) const {
   const std::string& frame = waypoint.pose.header.frame_id;
   const Pose in_frame = targetInFrame(waypoint.pose.pose, robot_.task, frames_.isBase(frame), field + ".pose.pose");
+  return frames_.withoutConfiguration(frame, field + ".pose.header.frame_id") * in_frame;
+}
+
+VectorX TrajectoryPlanner::solve(const Waypoint& waypoint, const std::string& field, PoseSeed& seed,
+                                 std::vector<std::string>& notes) const {
   IkRequest question;
-  question.target = frames_.withoutConfiguration(frame, field + ".pose.header.frame_id") * in_frame;
+  question.target = poseOf(waypoint, field);
   question.seed = seed.position;
   question.timeout = ik_timeout_;
   question.max_solutions = 1;
@@ -141,20 +146,32 @@ PlanRequest TrajectoryPlanner::toPlanRequest(const PlanTrajectory::Request& requ
   if (!request.joint_names.empty()) {
     values(request, std::vector<double>(request.joint_names.size(), 0.0), "joint_names");
   }
+  const bool cartesian = findProfile(request.profile).cartesian;
+  result.time_law = request.time_law;
+  if (cartesian) {
+    result.kinematics = &solver_;
+    result.present = present;
+    result.ik_timeout = ik_timeout_;
+  }
   PoseSeed seed{present, ""};
   for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
     const Waypoint& given = request.waypoints[i];
     const std::string field = waypointField(i);
     PathPoint waypoint;
-    waypoint.position = given.position.empty() ? solve(given, field, seed, notes)
-                                               : values(request, given.position, field + ".position");
-    requireWithinLimits(waypoint.position, field + ".position");
+    if (cartesian && given.position.empty()) {
+      waypoint.pose = poseOf(given, field);
+      waypoint.branch = given.branch;
+    } else {
+      waypoint.position = given.position.empty() ? solve(given, field, seed, notes)
+                                                 : values(request, given.position, field + ".position");
+      requireWithinLimits(waypoint.position, field + ".position");
+    }
     if (!given.velocity.empty()) waypoint.velocity = values(request, given.velocity, field + ".velocity");
     if (!given.acceleration.empty()) {
       waypoint.acceleration = values(request, given.acceleration, field + ".acceleration");
     }
     waypoint.time = given.time;
-    seed.position = waypoint.position;
+    if (!cartesian) seed.position = waypoint.position;
     result.waypoints.push_back(std::move(waypoint));
   }
   return result;

@@ -53,14 +53,14 @@ void noteInfiniteOrders(const JointTrajectory& trajectory, const std::string& pr
   }
 }
 
-MatrixX viaErrors(const ProfileDraft& draft, const std::vector<PathPoint>& waypoints) {
+MatrixX viaErrors(const ProfileDraft& draft, const std::vector<VectorX>& waypoints) {
   const Eigen::Index vias = waypoints.size() > 2 ? static_cast<Eigen::Index>(waypoints.size()) - 2 : 0;
   MatrixX errors(vias, draft.trajectory.joints());
   TrajectoryPoint point(draft.trajectory.joints());
   for (Eigen::Index i = 0; i < vias; ++i) {
     const std::size_t waypoint = static_cast<std::size_t>(i) + 1;
     draft.trajectory.sample(draft.waypoint_times[waypoint], point);
-    errors.row(i) = (point.position - waypoints[waypoint].position).transpose();
+    errors.row(i) = (point.position - waypoints[waypoint]).transpose();
   }
   return errors;
 }
@@ -68,13 +68,13 @@ MatrixX viaErrors(const ProfileDraft& draft, const std::vector<PathPoint>& waypo
 /// The ends, with the velocities and accelerations that are given there, and the vias where the profile meets them.
 std::vector<Checkpoint> checkpointsOf(const ProfileContext& context, const ProfileDraft& draft) {
   std::vector<Checkpoint> checkpoints;
-  const std::size_t count = context.waypoints().size();
+  const std::size_t count = draft.waypoints.size();
   for (std::size_t k = 0; count >= 2 && k < count; ++k) {
     const PathPoint& waypoint = context.waypoints()[k];
     const bool end = k == 0 || k + 1 == count;
     if (!end && !draft.meets_vias) continue;
     const double time = k == 0 ? 0.0 : end ? draft.trajectory.duration() : draft.waypoint_times[k];
-    checkpoints.emplace_back(time, waypoint.position);
+    checkpoints.emplace_back(time, draft.waypoints[k]);
     if (draft.meets_vias) checkpoints.back().velocity = waypoint.velocity;
     if (draft.meets_vias) checkpoints.back().acceleration = waypoint.acceleration;
   }
@@ -94,6 +94,9 @@ PlanResult planAsGiven(const PlanRequest& request, const Profile& profile) {
   requireSampleCount(context.duration, period);
 
   ProfileDraft draft = profile.build(context);
+  if (draft.waypoints.empty()) {
+    for (const PathPoint& waypoint : request.waypoints) draft.waypoints.push_back(waypoint.position);
+  }
   requireSampleCount(draft.trajectory.duration(), period);
   requirePositionBounds(draft.trajectory, context.limits, request.profile);
   verifyDraft(context, draft);
@@ -101,9 +104,10 @@ PlanResult planAsGiven(const PlanRequest& request, const Profile& profile) {
 
   PlanResult result;
   result.sample_period = period;
-  result.via_joint_errors = viaErrors(draft, request.waypoints);
+  result.via_joint_errors = viaErrors(draft, draft.waypoints);
   result.trajectory = std::move(draft.trajectory);
   result.waypoint_times = std::move(draft.waypoint_times);
+  result.waypoints = std::move(draft.waypoints);
   result.notes = std::move(draft.notes);
   return result;
 }

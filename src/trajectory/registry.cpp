@@ -5,6 +5,7 @@ namespace screwline {
 namespace {
 
 constexpr std::size_t kMostTimeOptimal = 1000;  ///< Waypoints: each takes its share of the search.
+constexpr std::size_t kMostCartesian = 1000;    ///< Poses: each line is followed on every branch.
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 
 std::vector<Profile> singleMoves() {
@@ -188,10 +189,45 @@ std::vector<Profile> freeMotions() {
   };
 }
 
+std::vector<Profile> cartesianMotions() {
+  const ParameterInfo tool_speed{"tool_speed", "[m/s] that the tip keeps below; not given: no bound", false};
+  const std::string timed =
+      "; the fastest that joint velocities and accelerations allow, slower near singularities, or by the time_law of "
+      "the "
+      "request";
+  return {
+      {{"cartesian_line",
+        "the tip on straight lines from pose to pose, its orientation about one axis each (slerp)" + timed,
+        {{"blend_radius", "[m] at which a corner is left and met again; 0 (default): a stop at each corner", false},
+         {"screw", "1: constant screws instead of lines and slerp; 0 (default)", false},
+         tool_speed}},
+       2,
+       kMostCartesian,
+       false,
+       WaypointDerivatives::kNone,
+       buildCartesianLine,
+       true},
+      {{"cartesian_arc",
+        "the tip on a circle from the first pose through the second to the third, orientations met by slerp with a "
+        "turn that grows and fades as a parabola" +
+            timed,
+        {{"centre", "1: the second waypoint is the circle's centre; 0 (default): a pose on the arc", false},
+         {"long_way", "1: with a centre, the arc of more than half a turn; 0 (default): the other", false},
+         {"via_orientation", "1 (default): the second pose's orientation is met; 0: slerp from end to end", false},
+         tool_speed}},
+       3,
+       3,
+       false,
+       WaypointDerivatives::kNone,
+       buildCartesianArc,
+       true},
+  };
+}
+
 const std::vector<Profile>& registry() {
   static const std::vector<Profile> profiles = [] {
     std::vector<Profile> all = singleMoves();
-    for (const auto& group : {jerkLimitedMoves(), viaMoves(), multipointMoves(), freeMotions()})
+    for (const auto& group : {jerkLimitedMoves(), viaMoves(), multipointMoves(), cartesianMotions(), freeMotions()})
       all.insert(all.end(), group.begin(), group.end());
     const ParameterInfo stretch{
         kStretchParameter,

@@ -153,6 +153,27 @@ void validateParameters(const PlanRequest& request, const Profile& profile) {
   }
 }
 
+void requirePose(const Pose& pose, const std::string& field) {
+  for (int i = 0; i < 3; ++i) requireUsable(pose.p[i], field + ".position");
+  const double off = (pose.R.transpose() * pose.R - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  if (!(off <= 1e-6)) refuse(field + ".orientation is no rotation: R^T R is off the identity by " + number(off));
+}
+
+void validateKinematics(const PlanRequest& request, const Profile& profile) {
+  if (!profile.cartesian) {
+    if (!request.time_law.empty())
+      refuse("time_law is '" + request.time_law + "', only Cartesian profiles take one, not '" + profile.info.name +
+             "'");
+    return;
+  }
+  if (request.kinematics == nullptr) refuse("profile '" + profile.info.name + "' needs the robot's kinematics");
+  if (request.kinematics->chain().size() != request.limits.joints()) {
+    refuse("limits have " + std::to_string(request.limits.joints()) + " joints, the robot has " +
+           std::to_string(request.kinematics->chain().size()));
+  }
+  if (request.present.size() > 0) requireVector(request.present, request.limits.joints(), "present");
+}
+
 }  // namespace
 
 std::optional<double> ProfileContext::parameter(const std::string& name) const {
@@ -171,6 +192,7 @@ ProfileContext validateRequest(const PlanRequest& request, const Profile& profil
   requireTime(request.sample_period, "sample_period");
   validateTimes(request, profile);
   validateParameters(request, profile);
+  validateKinematics(request, profile);
 
   const auto factor = [](double given) { return given == 0.0 ? 1.0 : given; };
   ProfileContext context{request,
@@ -179,6 +201,11 @@ ProfileContext validateRequest(const PlanRequest& request, const Profile& profil
                          request.duration};
   for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
     const std::string field = indexed("waypoints", i);
+    if (profile.cartesian && request.waypoints[i].position.size() == 0) {
+      requirePose(request.waypoints[i].pose, field + ".pose");
+      validateDerivatives(context, profile, i, field);
+      continue;
+    }
     requireVector(request.waypoints[i].position, joints, field + ".position");
     requireWithinBounds(request.waypoints[i].position, request.limits, field + ".position");
     validateDerivatives(context, profile, i, field);

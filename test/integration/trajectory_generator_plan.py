@@ -35,7 +35,7 @@ class Plan(unittest.TestCase):
     def setUpClass(cls):
         cls.generator = Generator.of('planar_3r')
         cls.robot = Robot('planar_3r')
-        cls.profiles = list(cls.generator.list_profiles().profiles)
+        cls.profiles = [name for name in cls.generator.list_profiles().profiles if not name.startswith('cartesian')]
 
     @classmethod
     def tearDownClass(cls):
@@ -168,6 +168,57 @@ class Plan(unittest.TestCase):
         pose.header.frame_id = 'base_link'
         answer = self.plan(request('cubic', waypoint(pose=pose), C))
         np.testing.assert_allclose(self.robot.forward(self.arrays(answer)[1][0]), pose_matrix(pose.pose), atol=1e-8)
+
+    def pose(self, q, x=0.0, y=0.0):
+        pose = pose_message(self.robot.forward(q))
+        pose.position.x += x
+        pose.position.y += y
+        return waypoint(pose=PoseStamped(pose=pose))
+
+    def tips(self, answer):
+        _, q, _, _ = self.arrays(answer)
+        return np.array([self.robot.forward(x) for x in q])
+
+    def test_cartesian_line(self):
+        start, goal = self.robot.forward(A), self.robot.forward([0.4, -0.9, 0.2])
+        way = goal[:3, 3] - start[:3, 3]
+        for law in ('', 'polynomial_345', 'double_s'):
+            answer = self.plan(request('cartesian_line', A, self.pose([0.4, -0.9, 0.2]), time_law=law))
+            tips = self.tips(answer)
+            off = np.linalg.norm(np.cross(tips[:, :3, 3] - start[:3, 3], way), axis=1) / np.linalg.norm(way)
+            self.assertLess(off.max(), 1e-6)
+            np.testing.assert_allclose(tips[-1], goal, atol=1e-8)
+            self.assertLessEqual(max(answer.metrics.limit_ratio), 1.0 + 1e-8)
+            self.assertAlmostEqual(answer.metrics.path_length, np.linalg.norm(way), delta=1e-6)
+            self.assertLess(answer.metrics.goal_error, 1e-9)
+            self.assertIn('of 2 branches carry the whole path', answer.message)
+            self.assertEqual((answer.time_scaling.s[0], answer.time_scaling.tau[-1]), (0.0, 1.0))
+
+    def test_cartesian_corners(self):
+        way = [A, self.pose(A, -0.3), self.pose(A, -0.3, -0.3)]
+        stopped = self.plan(request('cartesian_line', *way))
+        self.assertLess(max(stopped.via_position_errors), 1e-8)
+        blended = self.plan(request('cartesian_line', *way, parameter_names=['blend_radius'], parameter_values=[0.1]))
+        self.assertLess(blended.duration, stopped.duration)
+        self.assertTrue(0.0 < blended.via_position_errors[0] < 0.1)
+
+    def test_cartesian_arc(self):
+        answer = self.plan(request('cartesian_arc', A, self.pose(A, -0.2, -0.2), self.pose(A, -0.4)))
+        tips = self.tips(answer)
+        centre = self.robot.forward(A)[:3, 3] - [0.2, 0.0, 0.0]
+        np.testing.assert_allclose(np.linalg.norm(tips[:, :3, 3] - centre, axis=1), 0.2, atol=1e-6)
+        self.assertLess(max(answer.via_position_errors), 1e-8)
+
+    def test_refuses_cartesian_paths(self):
+        far = self.pose(A, 9.0)
+        self.refused(ErrorCode.PATH_NOT_CONTINUOUS, ['out of reach', 'elbow', '%'], request('cartesian_line', A, far))
+        self.refused(ErrorCode.NO_IK_SOLUTION, ['waypoints[0].pose'], request('cartesian_line', far, self.pose(A)))
+        self.refused(ErrorCode.INVALID_GOAL, ['time_law', 'warp', 'double_s'],
+                     request('cartesian_line', A, self.pose(A, -0.1), time_law='warp'))
+        self.refused(ErrorCode.INVALID_GOAL, ['time_law'], request('cubic', A, C, time_law='cubic'))
+        self.refused(ErrorCode.INVALID_GOAL, ['one line'], request('cartesian_arc', A, self.pose(A, -0.1), self.pose(A, -0.2)))
+        self.refused(ErrorCode.LIMITS_INFEASIBLE, ['0.01', 'shortest'],
+                     request('cartesian_line', A, self.pose(A, -0.3), duration=0.01))
 
     def refused(self, code, words, asked):
         answer = self.generator.plan(asked)

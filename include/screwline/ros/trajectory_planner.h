@@ -43,11 +43,12 @@ class TrajectoryPlanner {
   VectorX values(const PlanTrajectory::Request& request, const std::vector<double>& given,
                  const std::string& field) const;
   void requireWithinLimits(const VectorX& position, const std::string& field) const;
+  Pose poseOf(const Waypoint& waypoint, const std::string& field) const;
   VectorX solve(const Waypoint& waypoint, const std::string& field, PoseSeed& seed,
                 std::vector<std::string>& notes) const;
   IkResult ask(const IkRequest& question, const std::string& field) const;
   void noteAssumedLimits(const PlanTrajectory::Request& request, std::vector<std::string>& notes) const;
-  void fillViaErrors(const PlanRequest& request, const PlanResult& result, PlanTrajectory::Response& response,
+  void fillViaErrors(const PlanResult& result, PlanTrajectory::Response& response,
                      std::vector<std::string>& notes) const;
 
   ServedRobot robot_;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "screwline/ik/inverse_kinematics.h"
 #include "screwline/spatial/pose.h"
 #include "screwline/trajectory/joint_trajectory.h"
 #include "screwline/trajectory/limits.h"
@@ -12,10 +13,12 @@
 namespace screwline {
 
 struct PathPoint {
-  VectorX position;      ///< [rad or m], n values.
+  VectorX position;      ///< [rad or m], n values. Empty where a Cartesian profile is given a pose.
   VectorX velocity;      ///< Empty: not given.
   VectorX acceleration;  ///< Empty: not given.
   double time = 0.0;     ///< [s] The first is 0; 0 on a later one: not given.
+  Pose pose;             ///< X_BT, base frame: read by Cartesian profiles where position is empty.
+  std::string branch;    ///< Of the inverse solution for the pose: a name, or some of its parts; empty: any.
 };
 
 struct PlanRequest {
@@ -28,12 +31,19 @@ struct PlanRequest {
   double acceleration_scaling = 0.0;                       ///< The same.
   double jerk_scaling = 0.0;                               ///< The same.
   std::vector<std::pair<std::string, double>> parameters;  ///< As listProfiles() names them.
+
+  // Of Cartesian profiles only.
+  const InverseKinematics* kinematics = nullptr;  ///< The chain and its task. Has to outlive plan().
+  VectorX present;          ///< n: where the robot is; a first pose is solved near to it. Empty: zero, within limits.
+  std::string time_law;     ///< A profile of one s(tau) for the way along the path; empty: time-optimal.
+  double ik_timeout = 0.1;  ///< [s] of each inverse solution that is searched.
 };
 
 struct PlanResult {
   JointTrajectory trajectory;
   double sample_period = 0.01;         ///< [s] As requested, or its default.
   std::vector<double> waypoint_times;  ///< [s] One instant per waypoint.
+  std::vector<VectorX> waypoints;      ///< Joint values of each waypoint: as requested, or solved.
   MatrixX via_joint_errors;            ///< (waypoints - 2) x n: position at the instant minus the waypoint's position.
   std::vector<std::string> notes;      ///< What the reader of the answer should know, one sentence each.
 };
@@ -57,7 +67,8 @@ std::vector<ProfileSummary> listProfiles();
 /// Orders that a profile makes infinite (acceleration of rectangular, jerk of cubic) are not held; notes say so.
 /// @throws InputError kUnknownProfile (lists the known ones), kLimitsInfeasible (names joint, order, value, bound and
 /// the shortest feasible duration; given times are lengthened only with the parameter `stretch`), kTooLarge,
-/// kInvalidGoal (names the field, its value and the bound).
+/// kInvalidGoal (names the field, its value and the bound), and for Cartesian profiles kNoIkSolution (the first pose is
+/// out of reach), kPathNotContinuous (no branch carries the whole path: where and why each of them ends).
 /// @throws Exception where the check fails: an internal error, never a trajectory.
 PlanResult plan(const PlanRequest& request);
 

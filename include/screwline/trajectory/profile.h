@@ -39,6 +39,7 @@ struct ProfileDraft {
   std::vector<double> waypoint_times;
   std::vector<std::string> notes;
   bool meets_vias = false;  ///< Intermediate waypoints are met at their instants: verified with the rest.
+  std::vector<VectorX> waypoints = {};  ///< Joint values of each where they were solved; empty: the request's.
 };
 
 /// The draft of a builder that meets its vias, and the velocities and accelerations that waypoints give.
@@ -57,6 +58,7 @@ struct Profile {
   bool via_times = false;  ///< Whether the instant of an intermediate waypoint may be given.
   WaypointDerivatives derivatives = WaypointDerivatives::kNone;
   ProfileBuilder build = nullptr;
+  bool cartesian = false;  ///< Takes poses; needs the request's kinematics.
 };
 
 /// @throws InputError(kUnknownProfile) listing the known ones.
@@ -105,6 +107,8 @@ ProfileDraft buildBsplineInterpolating(const ProfileContext& context);
 ProfileDraft buildDoubleS(const ProfileContext& context);  // time_optimal_profiles.cpp
 ProfileDraft buildTimeOptimal(const ProfileContext& context);
 ProfileDraft buildPathTimeOptimal(const ProfileContext& context);  // path_profiles.cpp
+ProfileDraft buildCartesianLine(const ProfileContext& context);  // cartesian_profiles.cpp
+ProfileDraft buildCartesianArc(const ProfileContext& context);
 
 }  // namespace screwline
 
