@@ -92,10 +92,13 @@ std::optional<std::vector<Formula>> solvedSlide(const ExactChain& exact, const T
 
 std::vector<ConditionSolution> solutionsOf(const ExactChain& exact, const TrigPolynomial& f) {
   std::vector<ConditionSolution> solutions;
-  for (const int joint : jointsOf(exact, f)) {
+  const std::vector<int> joints = jointsOf(exact, f);
+  for (const int joint : joints) {
     const bool slide = exact.table.symbols[joint].kind == SymbolKind::kSlide;
     const auto values = slide ? solvedSlide(exact, f, joint) : solvedAngle(exact, f, joint);
-    if (values) solutions.push_back({joint, *values});
+    // Of several joints only what every choice of the others has: no arc cosine of a share that may be beyond 1.
+    const bool always = slide || joints.size() == 1 || (f.atAngle(joint, 0) + f.atAngle(joint, kHalfTurn)).isZero();
+    if (values && always) solutions.push_back({joint, *values});
   }
   return solutions;
 }
