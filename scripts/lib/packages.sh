@@ -9,7 +9,7 @@ BUILD_PACKAGES=(
   libstd-msgs-dev libgeometry-msgs-dev libsensor-msgs-dev libtrajectory-msgs-dev libvisualization-msgs-dev libdiagnostic-msgs-dev
   libtf2-msgs-dev libstd-srvs-dev
   libroscpp-dev libroscpp-core-dev librosconsole-dev libtf2-dev libtf2-ros-dev
-  libeigen3-dev liburdfdom-dev libconsole-bridge-dev libtinyxml2-dev libyaml-cpp-dev
+  libeigen3-dev liburdfdom-dev libconsole-bridge-dev libtinyxml2-dev libyaml-cpp-dev libginac-dev
 )
 RUN_PACKAGES=(
   python3-std-msgs python3-geometry-msgs python3-sensor-msgs python3-trajectory-msgs python3-visualization-msgs python3-std-srvs
@@ -64,6 +64,11 @@ missing_of() {
 
 install_by_rosdep() {
   say "packages: rosdep (Noetic)"
+  if [[ -n $(missing_of libginac-dev) ]]; then  # rosdep has no key for GiNaC.
+    export DEBIAN_FRONTEND=noninteractive
+    logged apt-update as_root apt-get update
+    logged apt-install as_root apt-get install -y --no-install-recommends libginac-dev
+  fi
   if ! command -v rosdep >/dev/null; then
     export DEBIAN_FRONTEND=noninteractive
     logged apt-update as_root apt-get update

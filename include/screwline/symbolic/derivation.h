@@ -1,0 +1,39 @@
+#ifndef SCREWLINE_SYMBOLIC_DERIVATION_H
+#define SCREWLINE_SYMBOLIC_DERIVATION_H
+
+#include <string>
+#include <vector>
+
+#include "screwline/symbolic/conditions.h"
+#include "screwline/symbolic/document.h"
+
+namespace screwline {
+
+struct DerivationOptions {
+  /// Of fk, jacobian, propagation, determinant, singularities; empty: all.
+  std::vector<std::string> quantities;
+  DocumentFormat format = DocumentFormat::kMarkdown;
+  SymbolicOptions symbolic;
+  int check_configurations = 100;  ///< Random ones at which each formula is compared with the numeric core.
+  Progress progress;
+};
+
+/// What was derived of a chain.
+struct Derivation {
+  std::string document;
+  /// Infix, of the task determinant: their product is it. One, the sum of the squares of the minors, where the task is
+  /// not square. Empty where the determinant was not asked for.
+  std::vector<std::string> factors;
+  std::vector<std::string> symbols;   ///< Of lengths and constant angles in the factors and the document.
+  std::vector<double> symbol_values;  ///< m, rad.
+  std::vector<ConditionFormula> conditions;
+  double worst_deviation = 0.0;  ///< Of any derived formula from the numeric core, relative.
+};
+
+/// Derives what is asked for, checks it against the numeric core and writes it down. @throws InputError (kInvalidGoal)
+/// for an unknown quantity, DerivationStopped where it was cancelled or grew too large.
+Derivation deriveDocument(const SerialChain& chain, const Task& task, const DerivationOptions& options);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SYMBOLIC_DERIVATION_H

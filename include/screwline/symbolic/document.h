@@ -1,0 +1,50 @@
+#ifndef SCREWLINE_SYMBOLIC_DOCUMENT_H
+#define SCREWLINE_SYMBOLIC_DOCUMENT_H
+
+#include <string>
+#include <vector>
+
+#include "screwline/symbolic/formula.h"
+
+namespace screwline {
+
+enum class DocumentFormat { kText, kMarkdown, kLatex };
+
+/// "text", "markdown" or "latex". @throws InputError (kInvalidGoal) for another name.
+DocumentFormat documentFormatOf(const std::string& name);
+
+/// Writes a document of headings, paragraphs, tables and formulas in one of three formats. Markdown has its formulas as
+/// LaTeX between dollars; LaTeX is a whole file that needs amsmath.
+class DocumentWriter {
+ public:
+  DocumentWriter(DocumentFormat format, const SymbolTable& symbols) : format_(format), symbols_(symbols) {}
+
+  void heading(int level, const std::string& text);
+  void paragraph(const std::string& text);
+  /// left = right, the left side in text and in LaTeX.
+  void equation(const std::string& left_text, const std::string& left_latex, const Formula& right);
+  void matrix(const std::string& left_text, const std::string& left_latex, const FormulaMatrix& right);
+  /// Cells that are ready: from text() or formula().
+  void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
+  void list(const std::vector<std::string>& items);
+
+  /// A formula, a piece of plain text, within a paragraph, list or table.
+  std::string formula(const Formula& formula) const;
+  std::string text(const std::string& plain) const;
+  /// LaTeX where the format has it, else the text.
+  std::string symbol(const std::string& in_text, const std::string& in_latex) const;
+
+  std::string finished() const;
+
+ private:
+  std::string written(const Formula& formula) const;
+  void block(const std::string& text) { body_ += text + "\n\n"; }
+
+  DocumentFormat format_;
+  const SymbolTable& symbols_;
+  std::string body_;
+};
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SYMBOLIC_DOCUMENT_H

@@ -1,0 +1,73 @@
+#include "screwline/symbolic/determinant.h"
+
+#include <limits>
+#include <utility>
+
+#include "exact_determinant.h"
+
+namespace screwline {
+namespace {
+
+bool isWholeOrNone(int count) {
+  return count == 0 || count == 3;
+}
+
+FactoredFormula formulaOf(const ExactChain& chain, const FactoredPolynomial& polynomial) {
+  FactoredFormula result{chain.formula(polynomial.coefficient), {}};
+  for (const PolynomialFactor& factor : polynomial.factors)
+    result.factors.push_back({chain.formula(factor.base), factor.multiplicity});
+  return result;
+}
+
+}  // namespace
+
+ExactDeterminant exactDeterminant(const ExactChain& chain, const Task& task) {
+  std::vector<int> rows;
+  for (int i = 0; i < task.size(); ++i) rows.push_back(task.row(i));
+  const int tip = chain.size + 1;
+  // Turning whole blocks of rows, and with all six moving the reference point, does not change the determinant.
+  const bool turns = isWholeOrNone(task.translationCount()) && isWholeOrNone(task.rotationCount());
+  const bool moves = task.size() == 6 && chain.joints >= 6;
+  ExactDeterminant result{0, TrigMatrix(chain.ring, 0, 0), {}};
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  for (int frame = 0; frame <= (turns ? tip : 0); ++frame) {
+    TrigMatrix J = chain.jacobian(frame, moves ? frame : tip).selected(rows);
+    const std::size_t count = J.termCount();
+    if (count >= fewest) continue;
+    fewest = count;
+    result.frame = frame;
+    result.jacobian = std::move(J);
+  }
+  for (const TrigPolynomial& minor : largestMinors(result.jacobian)) {
+    if (minor.isZero()) {
+      result.minors.push_back({TrigPolynomial(chain.ring), {}});
+    } else {
+      result.minors.push_back(factored(minor, chain.table.symbols));
+    }
+  }
+  return result;
+}
+
+Formula FactoredFormula::product() const {
+  std::vector<Formula> parts = {coefficient};
+  for (const FormulaFactor& factor : factors) parts.push_back(Formula::power(factor.base, factor.multiplicity));
+  return Formula::product(parts);
+}
+
+Formula DeterminantFormula::value() const {
+  if (square) return minors.front().product();
+  std::vector<Formula> squares;
+  for (const FactoredFormula& minor : minors) {
+    if (!minor.coefficient.isZero()) squares.push_back(Formula::power(minor.product(), 2));
+  }
+  return Formula::sum(squares);
+}
+
+DeterminantFormula determinantOf(const SymbolicChain& chain, const Task& task) {
+  const ExactDeterminant exact = exactDeterminant(chain.exact(), task);
+  DeterminantFormula result{exact.isSquare(), exact.frame, {}};
+  for (const FactoredPolynomial& minor : exact.minors) result.minors.push_back(formulaOf(chain.exact(), minor));
+  return result;
+}
+
+}  // namespace screwline

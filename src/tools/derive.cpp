@@ -1,0 +1,103 @@
+// Derives a robot's kinematics as formulas and prints them as a document. Needs no ROS master.
+
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "screwline/exception.h"
+#include "screwline/kinematics/task_selection.h"
+#include "screwline/model/urdf_reader.h"
+#include "screwline/symbolic/derivation.h"
+
+namespace {
+
+constexpr int kUsageError = 2;
+
+constexpr const char* kUsage =
+    "usage: derive ROBOT.urdf [--format text|markdown|latex] [--quantities fk,jacobian,propagation,determinant,"
+    "singularities]\n"
+    "              [--task x,y,z,rx,ry,rz] [--base LINK] [--tip LINK] [--share-lengths]\n"
+    "Prints forward kinematics, Jacobian, propagation, the task determinant in factors and the singular conditions as\n"
+    "formulas, checked against numbers. Progress is told on standard error; Ctrl-C ends it.\n"
+    "  --share-lengths  lengths of equal size become one symbol\n";
+
+struct Arguments {
+  std::string file;
+  screwline::ChainChoice choice;
+  std::vector<std::string> task;
+  screwline::DerivationOptions options;
+};
+
+std::vector<std::string> splitAtCommas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+/// False where the arguments are not as the usage says.
+bool parse(const std::vector<std::string>& words, Arguments& arguments) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--share-lengths") {
+      arguments.options.symbolic.share_equal_lengths = true;
+      continue;
+    }
+    if (word.rfind("--", 0) != 0) {
+      if (!arguments.file.empty()) return false;
+      arguments.file = word;
+      continue;
+    }
+    if (i + 1 == words.size()) return false;
+    const std::string& value = words[++i];
+    if (word == "--format") {
+      arguments.options.format = screwline::documentFormatOf(value);
+    } else if (word == "--quantities") {
+      arguments.options.quantities = splitAtCommas(value);
+    } else if (word == "--task") {
+      arguments.task = splitAtCommas(value);
+    } else if (word == "--base") {
+      arguments.choice.base_link = value;
+    } else if (word == "--tip") {
+      arguments.choice.tip_link = value;
+    } else {
+      return false;
+    }
+  }
+  return !arguments.file.empty();
+}
+
+void derive(Arguments& arguments) {
+  const screwline::SerialChain chain = screwline::readUrdfFile(arguments.file, arguments.choice);
+  const screwline::Task task =
+      arguments.task.empty() ? screwline::deriveTask(chain) : screwline::Task::parse(arguments.task);
+  arguments.options.progress.report = [](const std::string& stage) { std::cerr << "derive: " << stage << std::endl; };
+  std::cout << screwline::deriveDocument(chain, task, arguments.options).document << std::flush;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.size() == 1 && (words.front() == "-h" || words.front() == "--help")) {
+    std::cout << kUsage;
+    return 0;
+  }
+  try {
+    Arguments arguments;
+    if (!parse(words, arguments)) {
+      std::cerr << kUsage;
+      return kUsageError;
+    }
+    derive(arguments);
+  } catch (const screwline::Exception& error) {
+    std::cerr << "derive: " << error.what() << "\n";
+    return 1;
+  }
+  if (!std::cout) {
+    std::cerr << "derive: standard output cannot be written\n";
+    return 1;
+  }
+  return 0;
+}
