@@ -9,6 +9,7 @@
 #include "screwline/model/limits.h"
 #include "screwline/spatial/rotation.h"
 #include "text.h"
+#include "yaml_brackets.h"
 
 namespace screwline {
 namespace {
@@ -215,6 +216,7 @@ ChainDescription descriptionOf(const YAML::Node& root) {
 }  // namespace
 
 SerialChain readDhYaml(const std::string& yaml) {
+  if (const auto wrong = wrongBrackets(yaml)) throw ModelError("modified DH: the YAML is malformed: " + *wrong);
   try {
     return SerialChain(descriptionOf(YAML::Load(yaml)));
   } catch (const YAML::Exception& error) {
