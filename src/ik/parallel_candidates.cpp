@@ -127,7 +127,7 @@ ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain&
     if ((solutions.clamped >> k & 1U) != 0U) {
       const TaskError error = polish(chain, Task(), target, q);
       if (!(error.position <= kSolutionTolerance) || !(error.orientation <= kSolutionTolerance)) {
-        refuted = true;
+        refuted = refuted || (solutions.unlikely >> k & 1U) == 0U;
         continue;
       }
     }

@@ -8,8 +8,9 @@
 namespace screwline {
 namespace {
 
-constexpr double kRounding = 2e-15;  // [rad] of a direction that came through a few rotations.
-constexpr double kInLine = 1e-14;    // Sine below which a direction counts as in line with an axis.
+constexpr double kRounding = 2e-15;    // [rad] of a direction that came through a few rotations.
+constexpr double kMostInLine = 1e-12;  // What errors of the inputs may add to that.
+constexpr double kInLine = 1e-14;      // Sine below which a direction counts as in line with an axis.
 
 }  // namespace
 
@@ -44,7 +45,7 @@ void DirectionProblem::solve(const Vector3& start, const Vector3& goal, double e
   const double slack = whole - part;
   const double uncertain = kDoubleRootTolerance + 4.0 * error / sine_;
   if (slack < -uncertain) return;
-  const bool free = whole <= kInLine;
+  const bool free = whole <= kInLine + std::min(4.0 * error, kMostInLine);
   const bool one = free || slack <= kDoubleRootTolerance;
   const double height = one ? 0.0 : std::sqrt(slack * (whole + part));
   // Near a double root the turns move by the square root of what moves the direction.
@@ -53,6 +54,7 @@ void DirectionProblem::solve(const Vector3& start, const Vector3& goal, double e
     if (one && sign < 0) break;
     DirectionSolution solution;
     solution.sign = one ? 0 : sign;
+    solution.first_loose = by_first;
     solution.clamped = slack < -kDoubleRootTolerance;
     solution.first_free = free && by_first;
     solution.second_free = free && !by_first;

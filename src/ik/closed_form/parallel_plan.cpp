@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kRounding = 4e-15;    // Of a length over the chain's.
 constexpr double kNegligible = 1e-13;  // The same: terms below it are rounding.
+constexpr double kTightError = 1e-9;   // [rad] of the pair: below it what is out of reach is so but for a little.
 constexpr double kMostError = 1e-2;    // [rad] that is carried on: what is worse is left to other methods.
 
 }  // namespace
@@ -132,8 +133,29 @@ void ParallelPlan::solvePair(const Question& question, const Root& root, Paralle
     if (root.free) solutions.open |= bitOf(single_axis_);
     if (pair.first_free) solutions.open |= bitOf(pair_axis_);
     if (pair.second_free) solutions.open |= bitOf(pair_axis_ + 1);
-    solvePlane(question, root, pair, solutions);
+    const bool free = root.free || pair.first_free || pair.second_free;
+    if (free || pair.error <= kTightError) {
+      solvePlane(question, root, pair, root.error + pair.error, solutions);
+    } else if (!solvePlane(question, root, pair, 0.0, solutions) && !solveLoosely(question, root, pair, solutions)) {
+      const int known = solutions.count;
+      solvePlane(question, root, pair, root.error + pair.error, solutions);
+      for (int k = known; k < solutions.count; ++k) solutions.unlikely |= 1U << k;
+    }
   }
+}
+
+/// Near alignment one turn of the pair is hardly known: within its rounding it goes where the plane has a solution.
+bool ParallelPlan::solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair,
+                                ParallelSolutions& solutions) const {
+  const double most = std::min(pair.error, kPi);
+  for (const double share : {0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
+    DirectionSolution moved = pair;
+    Turn& loose = pair.first_loose ? moved.first : moved.second;
+    loose = Turn::of(share * most) * loose;
+    moved.clamped = true;
+    if (solvePlane(question, root, moved, 0.0, solutions)) return true;
+  }
+  return false;
 }
 
 /// Where the other joints leave the third parallel axis from the first, and the heading behind it.
@@ -159,13 +181,14 @@ void ParallelPlan::placeOf(const Question& question, const Turn& single, const T
   heading = normalized({side.dot(x_), side.dot(y_)});
 }
 
-void ParallelPlan::solvePlane(const Question& question, const Root& root, const DirectionSolution& pair,
+/// @param carried [rad] error of the stages before. False where there is no solution.
+bool ParallelPlan::solvePlane(const Question& question, const Root& root, const DirectionSolution& pair, double carried,
                               ParallelSolutions& solutions) const {
   const auto k = static_cast<std::size_t>(first_parallel_);
   Turn place;
   Turn heading;
   placeOf(question, root.turn, pair.first, pair.second, place, heading);
-  const double error = std::min(root.error + pair.error, kMostError);
+  const double error = std::min(carried, kMostError);
   PlanarSolutions planes;
   plane_->solve(place.c, place.s, heading, error * reach_, preferredTurn(question, first_parallel_), planes);
   for (const PlanarSolution& plane : planes) {
@@ -193,12 +216,14 @@ void ParallelPlan::solvePlane(const Question& question, const Root& root, const 
     if (pair.clamped || plane.clamped) solutions.clamped |= 1U << solutions.count;
     solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solution;
   }
+  return planes.count > 0;
 }
 
 void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSolutions& solutions) const {
   solutions.count = 0;
   solutions.open = 0;
   solutions.clamped = 0;
+  solutions.unlikely = 0;
   const Question question = questionOf(target, preferred);
   const Roots roots = singleRoots(question);
   for (int i = 0; i < roots.count; ++i) solvePair(question, roots.roots[static_cast<std::size_t>(i)], solutions);

@@ -16,6 +16,7 @@ struct DirectionSolution {
   bool second_free = false;  ///< The start is in line with axis 2.
   int sign = 0;              ///< Of the triple product of axis 1, axis 2 and the direction between; 0: two meet.
   double error = 0.0;        ///< [rad] by which rounding and the inputs' error may move the turns.
+  bool first_loose = false;  ///< It is the first that they move so far (goal nearly in line), else the second.
   bool clamped = false;      ///< Exists only if the inputs are moved within their error.
 };
 

@@ -16,6 +16,8 @@ struct ParallelSolutions : PlanSolutions {
   unsigned open = 0;     ///< Bit i: joint i turned out free in some stage, whether or not the stages behind it have a
                          ///< solution at its preferred value: there may be a continuum.
   unsigned clamped = 0;  ///< Bit k: solution k exists only if rounding is moved in its favour; it may prove to be none.
+  unsigned unlikely = 0;  ///< Bit k: clamped, where every move that rounding allows was tried; if it is none, none is
+                          ///< missing.
 };
 
 /// Inverse kinematics for whole poses of six revolute joints, three neighbouring ones with parallel axes and two
@@ -62,8 +64,10 @@ class ParallelPlan {
   void solvePair(const Question& question, const Root& root, ParallelSolutions& solutions) const;
   void placeOf(const Question& question, const Turn& single, const Turn& first, const Turn& second, Turn& place,
                Turn& heading) const;
-  void solvePlane(const Question& question, const Root& root, const DirectionSolution& pair,
+  bool solvePlane(const Question& question, const Root& root, const DirectionSolution& pair, double error,
                   ParallelSolutions& solutions) const;
+  bool solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair,
+                    ParallelSolutions& solutions) const;
   void directions(const Question& question, const Turn& single, Vector3& start, Vector3& goal) const;
   Turn preferredTurn(const Question& question, int axis) const;
   int jointOf(int axis) const { return reversed_ ? 5 - axis : axis; }
