@@ -45,9 +45,9 @@ std::vector<TrigPolynomial> sharedFactors(const ExactChain& exact, const ExactDe
       }
       first = false;
     }
-    shared.erase(std::remove_if(shared.begin(), shared.end(),
-                                [&isIn](const TrigPolynomial& base) { return !isIn(base); }),
-                 shared.end());
+    shared.erase(
+        std::remove_if(shared.begin(), shared.end(), [&isIn](const TrigPolynomial& base) { return !isIn(base); }),
+        shared.end());
   }
   return shared;
 }
@@ -67,8 +67,7 @@ std::optional<std::vector<Formula>> solvedAngle(const ExactChain& exact, const T
   if (constant.isZero()) {
     if (a.isZero()) return std::vector<Formula>{Formula::number(0), pi};
     if (b.isZero()) return std::vector<Formula>{pi / Formula::number(2), -pi / Formula::number(2)};
-    const Formula one =
-        Formula::call(FormulaFunction::kArcTangent2, {exact.formula(-a), exact.formula(b)});
+    const Formula one = Formula::call(FormulaFunction::kArcTangent2, {exact.formula(-a), exact.formula(b)});
     return std::vector<Formula>{one, one + pi};
   }
   if (b.isZero() && constant == a) return std::vector<Formula>{pi};
@@ -147,7 +146,7 @@ std::vector<SingularityFactor> derivedFactorsOf(const SerialChain& chain, const 
   std::vector<SingularityFactor> numeric = factorsOf(chain, task);
   try {
     const ExactChain exact(chain, {}, progress);
-    const ExactDeterminant determinant = exactDeterminant(exact, task);
+    const ExactDeterminant& determinant = exactDeterminant(exact, task);
     const std::vector<TrigPolynomial> shared = sharedFactors(exact, determinant);
     if (shared.empty()) return numeric;
     std::vector<SingularityFactor> factors = namedFactors(exact, chain, shared);

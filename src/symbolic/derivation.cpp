@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <functional>
 #include <utility>
 
 #include "numeric_check.h"
@@ -13,6 +15,8 @@ namespace screwline {
 namespace {
 
 constexpr std::array<const char*, 5> kQuantities = {"fk", "jacobian", "propagation", "determinant", "singularities"};
+
+constexpr double kRounding = 1e-12;  ///< Share of Hadamard's bound below which a determinant is rounding.
 
 std::string numberText(double value) {
   char text[32];
@@ -72,9 +76,10 @@ class Deriver {
 
   void writeHead() {
     document_.heading(1, "Kinematics of " + chain_.name());
-    document_.paragraph(document_.text("From " + chain_.baseLink() + " to " + chain_.tipLink() +
-                                       ". s and c with digits are sine and cosine of the sum of the joints' angles with "
-                                       "these numbers. Twists are [v; w], linear part first."));
+    document_.paragraph(
+        document_.text("From " + chain_.baseLink() + " to " + chain_.tipLink() +
+                       ". s and c with digits are sine and cosine of the sum of the joints' angles with "
+                       "these numbers. Twists are [v; w], linear part first."));
     document_.heading(2, "Symbols");
     std::vector<std::vector<std::string>> rows;
     for (int id = 0; id < symbolic_.symbols().size(); ++id) {
@@ -110,7 +115,8 @@ class Deriver {
     document_.matrix("R_0" + name, "{}^0R_{" + name + "}", X.R);
     document_.matrix("p_0" + name, "{}^0p_{" + name + "}", X.p);
     check_.compare(X.R, [&](const VectorX& q) -> MatrixX { return reference(q).R; });
-    check_.compare(X.p, [&](const VectorX& q) { return columnOf(reference(q).p); }, chain_.characteristicLength());
+    check_.compare(
+        X.p, [&](const VectorX& q) { return columnOf(reference(q).p); }, chain_.characteristicLength());
   }
 
   void writeForward() {
@@ -143,10 +149,12 @@ class Deriver {
     const double least = chain_.characteristicLength();
     const FormulaMatrix in_tip = symbolic_.jacobian(tip());
     document_.matrix("J in the tip's axes", "{}^TJ", in_tip);
-    check_.compare(in_tip, [&](const VectorX& q) { return numeric(q, true); }, least);
+    check_.compare(
+        in_tip, [&](const VectorX& q) { return numeric(q, true); }, least);
     const FormulaMatrix in_base = symbolic_.jacobian(0);
     document_.matrix("J in the base's axes", "{}^0J", in_base);
-    check_.compare(in_base, [&](const VectorX& q) { return numeric(q, false); }, least);
+    check_.compare(
+        in_base, [&](const VectorX& q) { return numeric(q, false); }, least);
   }
 
   void writePropagation() {
@@ -159,7 +167,8 @@ class Deriver {
       document_.matrix("v_" + number, "{}^{" + number + "}v_{" + number + "}", velocities[i].v);
     }
     document_.heading(2, "Forces, inward");
-    document_.paragraph(document_.text("f and n are exerted by the tip on the environment, about its origin, in its axes."));
+    document_.paragraph(
+        document_.text("f and n are exerted by the tip on the environment, about its origin, in its axes."));
     const std::vector<SymbolicLinkWrench> wrenches = symbolic_.wrenches();
     for (std::size_t i = wrenches.size(); i > 0; --i) {
       const std::string number = std::to_string(i);
@@ -214,9 +223,9 @@ class Deriver {
       for (const FormulaFactor& factor : factored.factors) addFactor(Formula::power(factor.base, factor.multiplicity));
     } else {
       const bool wide = task_.size() < chain_.size();
-      document_.paragraph(document_.text(
-          std::string(wide ? "det(J J^T)" : "det(J^T J)") + " is the sum of the squares of these minors, each of the " +
-          (wide ? "columns" : "rows") + " kept:"));
+      document_.paragraph(document_.text(std::string(wide ? "det(J J^T)" : "det(J^T J)") +
+                                         " is the sum of the squares of these minors, each of the " +
+                                         (wide ? "columns" : "rows") + " kept:"));
       for (std::size_t i = 0; i < determinant.minors.size(); ++i) {
         const std::string number = std::to_string(i + 1);
         document_.equation("m_" + number, "m_{" + number + "}", determinant.minors[i].product());
@@ -230,15 +239,19 @@ class Deriver {
     result_.factors.push_back(write(factor, symbolic_.symbols(), FormulaStyle::kInfix));
   }
 
-  /// Relative to Hadamard's bound: a determinant that is almost zero has rounding of that size.
+  /// Relative to the largest determinant found; where that is nothing but rounding, to Hadamard's bound.
   void checkDeterminant(const Formula& value) {
     const TaskDeterminant determinant(chain_, task_);
+    double largest = 0.0;
     double bound = 0.0;
-    for (int k = 0; k < options_.check_configurations; ++k)
-      bound = std::max(bound, std::abs(determinant(sampleConfiguration(chain_, k))));
-    check_.compare({1, 1, {value}},
-                   [&](const VectorX& q) -> MatrixX { return MatrixX::Constant(1, 1, determinant(q)); },
-                   std::max(bound, 1e-300));
+    for (int k = 0; k < options_.check_configurations; ++k) {
+      const VectorX q = sampleConfiguration(chain_, k);
+      largest = std::max(largest, std::abs(determinant(q)));
+      bound = std::max(bound, determinant.bound(q));
+    }
+    if (largest <= kRounding * bound) largest = bound;
+    check_.compare(
+        {1, 1, {value}}, [&](const VectorX& q) -> MatrixX { return MatrixX::Constant(1, 1, determinant(q)); }, largest);
   }
 
   void writeConditions() {
@@ -265,10 +278,9 @@ class Deriver {
 
   void writeCheck() {
     document_.heading(2, "Numeric check");
-    document_.paragraph(document_.text("Each formula was compared with the numeric kinematics at " +
-                                       std::to_string(options_.check_configurations) +
-                                       " configurations: the worst relative deviation is " +
-                                       deviationText(check_.worst()) + "."));
+    document_.paragraph(document_.text(
+        "Each formula was compared with the numeric kinematics at " + std::to_string(options_.check_configurations) +
+        " configurations: the worst relative deviation is " + deviationText(check_.worst()) + "."));
   }
 
   const SerialChain& chain_;

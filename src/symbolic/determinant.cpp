@@ -1,6 +1,7 @@
 #include "screwline/symbolic/determinant.h"
 
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "exact_determinant.h"
@@ -19,9 +20,7 @@ FactoredFormula formulaOf(const ExactChain& chain, const FactoredPolynomial& pol
   return result;
 }
 
-}  // namespace
-
-ExactDeterminant exactDeterminant(const ExactChain& chain, const Task& task) {
+ExactDeterminant workedOut(const ExactChain& chain, const Task& task) {
   std::vector<int> rows;
   for (int i = 0; i < task.size(); ++i) rows.push_back(task.row(i));
   const int tip = chain.size + 1;
@@ -48,6 +47,16 @@ ExactDeterminant exactDeterminant(const ExactChain& chain, const Task& task) {
   return result;
 }
 
+}  // namespace
+
+const ExactDeterminant& exactDeterminant(const ExactChain& chain, const Task& task) {
+  for (const auto& [known_task, known] : chain.determinants) {
+    if (known_task == task) return *known;
+  }
+  chain.determinants.emplace_back(task, std::make_shared<const ExactDeterminant>(workedOut(chain, task)));
+  return *chain.determinants.back().second;
+}
+
 Formula FactoredFormula::product() const {
   std::vector<Formula> parts = {coefficient};
   for (const FormulaFactor& factor : factors) parts.push_back(Formula::power(factor.base, factor.multiplicity));
@@ -64,7 +73,7 @@ Formula DeterminantFormula::value() const {
 }
 
 DeterminantFormula determinantOf(const SymbolicChain& chain, const Task& task) {
-  const ExactDeterminant exact = exactDeterminant(chain.exact(), task);
+  const ExactDeterminant& exact = exactDeterminant(chain.exact(), task);
   DeterminantFormula result{exact.isSquare(), exact.frame, {}};
   for (const FactoredPolynomial& minor : exact.minors) result.minors.push_back(formulaOf(chain.exact(), minor));
   return result;

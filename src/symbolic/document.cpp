@@ -131,7 +131,8 @@ void DocumentWriter::table(const std::vector<std::string>& header, const std::ve
     return;
   }
   std::string text = "\\begin{tabular}{" + std::string(header.size(), 'l') + "}\n";
-  for (std::size_t i = 0; i < all.size(); ++i) text += joinedRow(all[i], " & ") + " \\\\" + (i == 0 ? " \\hline\n" : "\n");
+  for (std::size_t i = 0; i < all.size(); ++i)
+    text += joinedRow(all[i], " & ") + " \\\\" + (i == 0 ? " \\hline\n" : "\n");
   block(text + "\\end{tabular}");
 }
 

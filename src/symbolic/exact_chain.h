@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "readable.h"
+#include "screwline/model/task.h"
 #include "screwline/symbolic/symbolic_chain.h"
 #include "trig_matrix.h"
 
@@ -52,6 +53,8 @@ struct ExactTable {
 /// @throws DerivationStopped for mimic joints that it does not handle.
 ExactTable exactTableOf(const SerialChain& chain, const SymbolicOptions& options);
 
+struct ExactDeterminant;
+
 /// The chain's transforms as polynomials.
 struct ExactChain {
   ExactChain(const SerialChain& chain, const SymbolicOptions& options, const Progress& progress);
@@ -66,6 +69,7 @@ struct ExactChain {
   TrigPose tool;
   std::vector<TrigPose> steps;  ///< steps[i]: frame i + 1 in frame i, i = 0..n; the base in the first.
   mutable Reader reader;
+  mutable std::vector<std::pair<Task, std::shared_ptr<const ExactDeterminant>>> determinants;  ///< Worked out so far.
 
   TrigPose pose(int reference, int frame) const;
   /// Jacobian [v; w], 6 x joints, of the point of the tip's body that is at frame `point`'s origin; components in

@@ -19,7 +19,8 @@ struct ExactDeterminant {
   bool isSquare() const { return jacobian.rows() == jacobian.columns(); }
 };
 
-ExactDeterminant exactDeterminant(const ExactChain& chain, const Task& task);
+/// Kept by the chain for later calls.
+const ExactDeterminant& exactDeterminant(const ExactChain& chain, const Task& task);
 
 }  // namespace screwline
 

@@ -30,8 +30,7 @@ class TableMaker {
     table_.base = transform(dh.base_transform, {"x0", "y0", "z0"}, "base");
     for (std::size_t i = 0; i < dh.rows.size(); ++i) table_.rows.push_back(row(dh.rows[i], static_cast<int>(i) + 1));
     const std::string n = std::to_string(dh.rows.size());
-    table_.tool =
-        transform(dh.tool_transform, {"a" + n, "b" + n, "d" + std::to_string(dh.rows.size() + 1)}, "tool");
+    table_.tool = transform(dh.tool_transform, {"a" + n, "b" + n, "d" + std::to_string(dh.rows.size() + 1)}, "tool");
     groupAngles();
     addRatesAndWrench();
     return std::move(table_);

@@ -190,9 +190,7 @@ class Factoring {
     divideBy(inside, used.expand());
   }
 
-  bool isSlideEntry(std::size_t entry) const {
-    return kindOf(entry - at(TrigRing::kRadicals)) == SymbolKind::kSlide;
-  }
+  bool isSlideEntry(std::size_t entry) const { return kindOf(entry - at(TrigRing::kRadicals)) == SymbolKind::kSlide; }
 
   TrigPolynomial angleFactor(const HalfAnglePiece& piece, std::size_t k) const {
     HalfAnglePolynomial half{{rest_.angles[k]}, {piece.degree}, {}};
@@ -206,8 +204,8 @@ class Factoring {
     return polynomialOf(fromHalfAngles(ring_, half).terms());
   }
 
-  /// Pieces of even degree: u with v is the sine, u - v with u + v the cosine, equal ones 1 - cos and the like, others in
-  /// turn. One of odd degree may be left over: it is left in the rest.
+  /// Pieces of even degree: u with v is the sine, u - v with u + v the cosine, equal ones 1 - cos and the like, others
+  /// in turn. One of odd degree may be left over: it is left in the rest.
   static std::vector<HalfAnglePiece> paired(std::vector<HalfAnglePiece> pieces, const ex& u) {
     std::vector<HalfAnglePiece> result;
     const auto pair = [&](HalfAnglePiece& a, HalfAnglePiece& b, int times) {

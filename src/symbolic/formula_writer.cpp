@@ -133,8 +133,8 @@ class Writer {
     std::vector<Formula> below;
     for (const Formula& factor : factors) {
       const bool inverse = factor.kind() == Kind::kPower && factor.numerator() < 0;
-      (inverse ? below : above).push_back(
-          inverse ? Formula::power(factor.parts().front(), -static_cast<int>(factor.numerator())) : factor);
+      (inverse ? below : above)
+          .push_back(inverse ? Formula::power(factor.parts().front(), -static_cast<int>(factor.numerator())) : factor);
     }
     if (below.empty()) return {joined(above), Binding::kProduct};
     if (isLatex()) return {"\\frac{" + numeratorText(above) + "}{" + numeratorText(below) + "}", Binding::kAtom};
@@ -171,8 +171,7 @@ class Writer {
     if (isLatex() && function == FormulaFunction::kSquareRoot)
       return {"\\sqrt{" + write(formula.parts().front()).text + "}", Binding::kAtom};
     std::string arguments;
-    for (const Formula& argument : formula.parts())
-      arguments += (arguments.empty() ? "" : ", ") + write(argument).text;
+    for (const Formula& argument : formula.parts()) arguments += (arguments.empty() ? "" : ", ") + write(argument).text;
     return {nameOf(function) + (isLatex() ? "\\left(" + arguments + "\\right)" : "(" + arguments + ")"),
             Binding::kAtom};
   }

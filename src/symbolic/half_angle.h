@@ -9,8 +9,8 @@
 namespace screwline {
 
 /// A polynomial in radicals and scalars as in its ring, and in u = sin(angle / 2), v = cos(angle / 2) of each angle,
-/// homogeneous of degree degrees[k] in the two of angles[k]: sin = 2 u v, cos = v^2 - u^2, 1 = u^2 + v^2. Unlike sines and
-/// cosines these have unique factors. Keys hold the exponents of radicals and scalars, then those of the u.
+/// homogeneous of degree degrees[k] in the two of angles[k]: sin = 2 u v, cos = v^2 - u^2, 1 = u^2 + v^2. Unlike sines
+/// and cosines these have unique factors. Keys hold the exponents of radicals and scalars, then those of the u.
 struct HalfAnglePolynomial {
   std::vector<int> angles;
   std::vector<int> degrees;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -74,6 +75,10 @@ class TermMaker {
       if (turns) term.function = sine ? FactorTerm::Function::kSine : FactorTerm::Function::kCosine;
       terms.push_back(term);
     }
+    std::stable_sort(terms.begin(), terms.end(), [](const FactorTerm& a, const FactorTerm& b) {
+      return std::accumulate(a.powers.begin(), a.powers.end(), 0) >
+             std::accumulate(b.powers.begin(), b.powers.end(), 0);
+    });
     return terms;
   }
 

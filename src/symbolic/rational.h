@@ -37,9 +37,7 @@ class Rational {
     return result;
   }
   /// @pre b is not zero.
-  friend Rational operator/(const Rational& a, const Rational& b) {
-    return a * Rational(b.denominator_, b.numerator_);
-  }
+  friend Rational operator/(const Rational& a, const Rational& b) { return a * Rational(b.denominator_, b.numerator_); }
   friend Rational operator+(const Rational& a, const Rational& b) {
     if (a.denominator_ == b.denominator_) return Rational(plus(a.numerator_, b.numerator_), a.denominator_);
     return Rational(plus(times(a.numerator_, b.denominator_), times(b.numerator_, a.denominator_)),

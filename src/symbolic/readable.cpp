@@ -152,8 +152,8 @@ Formula Reader::bracket(const Terms& terms) {
   std::optional<std::size_t> shortest;
   if (!many) shortest = length(best);
   const auto offer = [&](int first, int count) {
-    const bool splits = std::any_of(terms.begin(), terms.end(),
-                                    [&](const auto& term) { return !isEmptyAt(term.first, first, count); });
+    const bool splits =
+        std::any_of(terms.begin(), terms.end(), [&](const auto& term) { return !isEmptyAt(term.first, first, count); });
     if (!splits || (many && shortest)) return;
     const Formula candidate = collected(terms, first, count);
     const std::size_t size = length(candidate);
@@ -225,9 +225,8 @@ Formula Reader::collected(const Terms& terms, int first, int count) {
   }
   const bool apart = products.size() == 1 && products.front().first.size() == terms.size();
   if (apart) return flat(terms);  // Nothing but monomials: no bracket came together.
-  std::sort(products.begin(), products.end(), [this](const auto& a, const auto& b) {
-    return isBefore(a.first.begin()->first, b.first.begin()->first);
-  });
+  std::sort(products.begin(), products.end(),
+            [this](const auto& a, const auto& b) { return isBefore(a.first.begin()->first, b.first.begin()->first); });
   std::vector<Formula> sum;
   for (auto& [left, right] : products) {
     const bool negative = std::all_of(left.begin(), left.end(), [](const auto& t) { return t.second < Rational(0); });
@@ -245,8 +244,7 @@ Formula Reader::circular(const AngleGroup& group, const TrigKey& key) const {
   const int first = key[at(group.offset)];
   if (group.isSingle()) {
     const Formula angle = angleFormula(group, key);
-    return Formula::power(Formula::cos(angle), first) *
-           Formula::power(Formula::sin(angle), key[at(group.offset + 1)]);
+    return Formula::power(Formula::cos(angle), first) * Formula::power(Formula::sin(angle), key[at(group.offset + 1)]);
   }
   if (isEmptyAt(key, group.offset, group.entries())) return Formula::number(1);
   const Formula angle = angleFormula(group, key);

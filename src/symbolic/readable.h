@@ -9,8 +9,8 @@
 
 namespace screwline {
 
-/// Writes polynomials as people do: common factors in front, what belongs together in brackets, the shortest of the ways
-/// tried. Deterministic. Remembers what it has written; belongs to one thread.
+/// Writes polynomials as people do: common factors in front, what belongs together in brackets, the shortest of the
+/// ways tried. Deterministic. Remembers what it has written; belongs to one thread.
 class Reader {
  public:
   Reader(RingPointer ring, const SymbolTable& symbols) : ring_(std::move(ring)), symbols_(symbols) {}

@@ -28,7 +28,7 @@ std::vector<double> SymbolTable::valuesAt(const ConstVectorRef& q) const {
 }
 
 std::string latexOfName(const std::string& name) {
-  static const std::array<const char*, 9> kGreek = {"theta", "alpha", "beta", "gamma", "phi",
+  static const std::array<const char*, 9> kGreek = {"theta", "alpha", "beta",  "gamma", "phi",
                                                     "psi",   "rho",   "sigma", "delta"};
   const std::size_t digits = name.find_last_not_of("0123456789") + 1;
   const std::string stem = name.substr(0, digits);

@@ -9,8 +9,7 @@ namespace {
 
 Formula angleOf(const ExactAngle& angle) {
   std::vector<Formula> terms;
-  for (const auto& [symbol, times] : angle.symbols)
-    terms.push_back(Formula::number(times) * Formula::symbol(symbol));
+  for (const auto& [symbol, times] : angle.symbols) terms.push_back(Formula::number(times) * Formula::symbol(symbol));
   if (angle.steps != 0) terms.push_back(Formula::number(angle.steps, 12) * Formula::pi());
   return Formula::sum(terms);
 }

@@ -83,9 +83,8 @@ TrigMatrix TrigMatrix::selected(const std::vector<int>& rows) const {
 }
 
 std::size_t TrigMatrix::termCount() const {
-  return std::accumulate(
-      entries_.begin(), entries_.end(), std::size_t{0},
-      [](std::size_t sum, const TrigPolynomial& entry) { return sum + entry.terms().size(); });
+  return std::accumulate(entries_.begin(), entries_.end(), std::size_t{0},
+                         [](std::size_t sum, const TrigPolynomial& entry) { return sum + entry.terms().size(); });
 }
 
 TrigMatrix TrigMatrix::operator-() const {

@@ -290,7 +290,8 @@ double TrigPolynomial::evaluate(const std::vector<double>& values) const {
       if (isIdentity(group, key)) continue;
       if (group.isSingle()) {
         const double angle = values[at(group.angles.front())];
-        product *= powerOf(std::cos(angle), key[at(group.offset)]) * powerOf(std::sin(angle), key[at(group.offset + 1)]);
+        product *=
+            powerOf(std::cos(angle), key[at(group.offset)]) * powerOf(std::sin(angle), key[at(group.offset + 1)]);
         continue;
       }
       double angle = 0.0;

@@ -120,6 +120,7 @@ TEST(DhReader, BadTablesAreRefusedAndTheMessageSaysWhy) {
       {"just text", {"document", "'just text'"}},
       {"[1, 2]", {"document", "a list"}},
       {"name: [", {"YAML", "malformed"}},
+      {"name: arm\nbase: {xyz: [0, 0, 0], rpy:]}\n", {"malformed", "line 2", "']' closes no '['"}},
       {"name: arm\n", {"joints", "list of at least one"}},
       {"name: arm\njoints: []\n", {"joints", "list of at least one"}},
       {"name: arm\njoints: {a: 1}\n", {"joints", "list of at least one"}},

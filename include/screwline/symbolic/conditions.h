@@ -17,18 +17,18 @@ struct ConditionSolution {
 
 /// Where a factor of the task determinant is zero.
 struct ConditionFormula {
-  std::string name;     ///< "elbow", "shoulder", "wrist", ...
-  std::string meaning;  ///< What is lost, in a line.
-  Formula left_side;    ///< Zero where the task is singular.
+  std::string name;                          ///< "elbow", "shoulder", "wrist", ...
+  std::string meaning;                       ///< What is lost, in a line.
+  Formula left_side;                         ///< Zero where the task is singular.
   std::vector<ConditionSolution> solutions;  ///< Empty where the condition has no simple solution.
 };
 
 /// The conditions of a square task, or those that all minors of another share. @throws DerivationStopped
 std::vector<ConditionFormula> conditionsOf(const SymbolicChain& symbolic, const SerialChain& chain, const Task& task);
 
-/// As factorsOf(chain, task), which fits numbers, but from the exact factors: for analyzeSingularity(). Where a derivation
-/// does not come to its end in the progress's time, or finds no explicit factors, the numeric ones. Takes milliseconds for
-/// most arms, longer for general ones: to be called in the background.
+/// As factorsOf(chain, task), which fits numbers, but from the exact factors: for analyzeSingularity(). Where a
+/// derivation does not come to its end in the progress's time, or finds no explicit factors, the numeric ones. Takes
+/// milliseconds for most arms, longer for general ones: to be called in the background.
 std::vector<SingularityFactor> derivedFactorsOf(const SerialChain& chain, const Task& task, const Progress& progress);
 
 }  // namespace screwline

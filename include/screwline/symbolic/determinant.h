@@ -21,8 +21,8 @@ struct FactoredFormula {
   Formula product() const;
 };
 
-/// The determinant of the task's rows: of J where that is square, else of J J^T or J^T J (whichever is smaller), which is
-/// the sum of the squares of J's largest minors (Cauchy and Binet).
+/// The determinant of the task's rows: of J where that is square, else of J J^T or J^T J (whichever is smaller), which
+/// is the sum of the squares of J's largest minors (Cauchy and Binet).
 struct DeterminantFormula {
   bool square = true;
   FrameNumber frame = 0;                ///< In whose axes it was worked out; its value does not depend on it.

@@ -36,11 +36,11 @@ class Formula {
   Kind kind() const { return node_->kind; }
   bool isNumber(std::int64_t value) const;
   bool isZero() const { return isNumber(0); }
-  std::int64_t numerator() const { return node_->numerator; }      ///< Of a kNumber; of a kPower its exponent.
-  std::int64_t denominator() const { return node_->denominator; }  ///< Of a kNumber, positive.
-  double decimalValue() const { return node_->decimal; }           ///< Of a kDecimal.
-  int symbolId() const { return node_->symbol; }                   ///< Of a kSymbol; kPiSymbol is the number pi.
-  FormulaFunction function() const { return node_->function; }     ///< Of a kCall.
+  std::int64_t numerator() const { return node_->numerator; }         ///< Of a kNumber; of a kPower its exponent.
+  std::int64_t denominator() const { return node_->denominator; }     ///< Of a kNumber, positive.
+  double decimalValue() const { return node_->decimal; }              ///< Of a kDecimal.
+  int symbolId() const { return node_->symbol; }                      ///< Of a kSymbol; kPiSymbol is the number pi.
+  FormulaFunction function() const { return node_->function; }        ///< Of a kCall.
   const std::vector<Formula>& parts() const { return node_->parts; }  ///< Terms, factors, base, or arguments.
 
   /// Value with the symbols' values by number. @pre all symbols that occur are among them.

@@ -15,8 +15,8 @@ struct SymbolicOptions {
   bool share_equal_lengths = false;  ///< Lengths of equal size become one symbol.
 };
 
-/// Frames of a derivation by number: 0 is the base link, 1..n those of the modified-DH table (joint i about or along its
-/// z), n + 1 the tip.
+/// Frames of a derivation by number: 0 is the base link, 1..n those of the modified-DH table (joint i about or along
+/// its z), n + 1 the tip.
 using FrameNumber = int;
 
 /// A pose as formulas: rotation and position of one frame in another.
@@ -33,8 +33,8 @@ struct SymbolicDhRow {
   Formula theta;
 };
 
-/// Velocity of a frame (its origin) and of forces on it, as linear in joint rates and in the tip's wrench; components in
-/// the frame itself.
+/// Velocity of a frame (its origin) and of forces on it, as linear in joint rates and in the tip's wrench; components
+/// in the frame itself.
 struct SymbolicLinkVelocity {
   FormulaMatrix w;  ///< 3 x 1 [rad/s]
   FormulaMatrix v;  ///< 3 x 1 [m/s]

@@ -13,12 +13,12 @@
 namespace screwline {
 
 struct PathPoint {
-  VectorX position;      ///< [rad or m], n values. Empty where a Cartesian profile is given a pose.
-  VectorX velocity;      ///< Empty: not given.
-  VectorX acceleration;  ///< Empty: not given.
-  double time = 0.0;     ///< [s] The first is 0; 0 on a later one: not given.
-  Pose pose;             ///< X_BT, base frame: read by Cartesian profiles where position is empty.
-  std::string branch;    ///< Of the inverse solution for the pose: a name, or some of its parts; empty: any.
+  VectorX position;         ///< [rad or m], n values. Empty where a Cartesian profile is given a pose.
+  VectorX velocity;         ///< Empty: not given.
+  VectorX acceleration;     ///< Empty: not given.
+  double time = 0.0;        ///< [s] The first is 0; 0 on a later one: not given.
+  Pose pose = {};           ///< X_BT, base frame: read by Cartesian profiles where position is empty.
+  std::string branch = {};  ///< Of the inverse solution for the pose: a name, or some of its parts; empty: any.
 };
 
 struct PlanRequest {
