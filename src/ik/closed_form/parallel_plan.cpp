@@ -151,7 +151,7 @@ bool ParallelPlan::solveLoosely(const Question& question, const Root& root, cons
   for (const double share : {0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
     DirectionSolution moved = pair;
     Turn& loose = pair.first_loose ? moved.first : moved.second;
-    loose = Turn::of(share * most) * loose;
+    loose = turnBy(share * most) * loose;
     moved.clamped = true;
     if (solvePlane(question, root, moved, 0.0, solutions)) return true;
   }
