@@ -17,6 +17,7 @@ add_service_files(FILES
   ComputeJacobian.srv
   ComputeStatics.srv
   ComputeVelocity.srv
+  Derive.srv
   Describe.srv
   ExecuteTrajectory.srv
   ListProfiles.srv

@@ -47,6 +47,7 @@ void KinematicsServer::advertise(ros::NodeHandle& private_node) {
       offer<ComputeVelocity>(private_node, kComputeVelocityService, *this, &KinematicsServer::computeVelocity),
       offer<ComputeFKBatch>(batch_node, kComputeFkBatchService, *this, &KinematicsServer::computeFkBatch),
       offer<ComputeIKBatch>(batch_node, kComputeIkBatchService, *this, &KinematicsServer::computeIkBatch),
+      offer<Derive>(batch_node, kDeriveService, *this, &KinematicsServer::derive),
   };
   batch_spinner_.emplace(static_cast<unsigned>(params_.threads), &batch_queue_);
   batch_spinner_->start();

@@ -14,7 +14,8 @@
 namespace screwline {
 namespace {
 
-constexpr std::array<const char*, 5> kQuantities = {"fk", "jacobian", "propagation", "determinant", "singularities"};
+constexpr std::array<const char*, 6> kQuantities = {"fk",          "jacobian",      "propagation",
+                                                    "determinant", "singularities", "ik"};
 
 constexpr double kRounding = 1e-12;  ///< Share of Hadamard's bound below which a determinant is rounding.
 
@@ -55,6 +56,7 @@ class Deriver {
     if (wants("propagation")) writePropagation();
     if (wants("determinant") || wants("singularities")) writeDeterminant();
     if (wants("singularities")) writeConditions();
+    if (wants("ik")) writeInverse();
     writeCheck();
     result_.document = document_.finished();
     result_.worst_deviation = check_.worst();
@@ -274,6 +276,14 @@ class Deriver {
       items.push_back(item + ". " + document_.text(condition.meaning) + ".");
     }
     document_.list(items);
+  }
+
+  void writeInverse() {
+    if (options_.inverse.empty()) return;
+    document_.heading(2, "Inverse kinematics");
+    std::vector<std::string> lines;
+    for (const std::string& line : options_.inverse) lines.push_back(document_.text(line));
+    document_.list(lines);
   }
 
   void writeCheck() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "screwline/exception.h"
+#include "screwline/ik/method_summary.h"
 #include "screwline/kinematics/task_selection.h"
 #include "screwline/model/urdf_reader.h"
 #include "screwline/symbolic/derivation.h"
@@ -16,7 +17,7 @@ constexpr int kUsageError = 2;
 
 constexpr const char* kUsage =
     "usage: derive ROBOT.urdf [--format text|markdown|latex] [--quantities fk,jacobian,propagation,determinant,"
-    "singularities]\n"
+    "singularities,ik]\n"
     "              [--task x,y,z,rx,ry,rz] [--base LINK] [--tip LINK] [--share-lengths]\n"
     "Prints forward kinematics, Jacobian, propagation, the task determinant in factors and the singular conditions as\n"
     "formulas, checked against numbers. Progress is told on standard error; Ctrl-C ends it.\n"
@@ -73,6 +74,7 @@ void derive(Arguments& arguments) {
   const screwline::Task task =
       arguments.task.empty() ? screwline::deriveTask(chain) : screwline::Task::parse(arguments.task);
   arguments.options.progress.report = [](const std::string& stage) { std::cerr << "derive: " << stage << std::endl; };
+  arguments.options.inverse = screwline::summaryOf(screwline::InverseKinematics(chain, task));
   std::cout << screwline::deriveDocument(chain, task, arguments.options).document << std::flush;
 }
 

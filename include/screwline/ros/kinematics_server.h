@@ -29,8 +29,8 @@ class KinematicsServer {
  public:
   KinematicsServer(ServedRobot robot, const KinematicsParams& params, FrameLookup lookup);
 
-  /// Offers the services in a private namespace for as long as this lives. Batches have threads of their own: a long
-  /// one keeps no other question waiting.
+  /// Offers the services in a private namespace for as long as this lives. Batches and derivations have threads of
+  /// their own: a long one keeps no other question waiting.
   void advertise(ros::NodeHandle& private_node);
 
   Outcome describe(const Describe::Request& request, Describe::Response& response) const;
@@ -41,6 +41,7 @@ class KinematicsServer {
   Outcome computeStatics(const ComputeStatics::Request& request, ComputeStatics::Response& response) const;
   Outcome computeVelocity(const ComputeVelocity::Request& request, ComputeVelocity::Response& response) const;
   Outcome computeFkBatch(const ComputeFKBatch::Request& request, ComputeFKBatch::Response& response) const;
+  Outcome derive(const Derive::Request& request, Derive::Response& response) const;
   Outcome computeIkBatch(const ComputeIKBatch::Request& request, ComputeIKBatch::Response& response) const;
 
  private:

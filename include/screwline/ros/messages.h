@@ -10,6 +10,7 @@
 #include <screwline/ComputeJacobian.h>
 #include <screwline/ComputeStatics.h>
 #include <screwline/ComputeVelocity.h>
+#include <screwline/Derive.h>
 #include <screwline/Describe.h>
 #include <screwline/ErrorCode.h>
 #include <screwline/IkSolution.h>

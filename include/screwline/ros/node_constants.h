@@ -16,6 +16,7 @@ constexpr char kComputeStaticsService[] = "compute_statics";
 constexpr char kComputeVelocityService[] = "compute_velocity";
 constexpr char kComputeFkBatchService[] = "compute_fk_batch";
 constexpr char kComputeIkBatchService[] = "compute_ik_batch";
+constexpr char kDeriveService[] = "derive";
 
 // Parameters found by searching upward, and what lies beside the first of them.
 constexpr char kRobotDescriptionParam[] = "robot_description";
@@ -30,6 +31,7 @@ constexpr char kIkTimeoutParam[] = "ik_timeout";
 constexpr char kThreadsParam[] = "threads";
 constexpr char kMaxBatchParam[] = "max_batch";
 constexpr char kBatchTimeoutParam[] = "batch_timeout";
+constexpr char kDeriveTimeoutParam[] = "derive_timeout";
 constexpr char kMaxJointsParam[] = "max_joints";
 constexpr char kRotationWeightParam[] = "rotation_weight";
 

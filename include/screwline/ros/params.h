@@ -26,6 +26,7 @@ struct KinematicsParams {
   int threads = 0;               ///< That answer requests; 0: as many as cores.
   int max_batch = 1000000;       ///< Rows of a batch request.
   double batch_timeout = 600.0;  ///< [s] for all of a batch of inverse kinematics.
+  double derive_timeout = 60.0;  ///< [s] for the formulas of one request.
   double rotation_weight = 1.0;  ///< [m/rad] how rotation counts beside translation in one distance.
 };
 

@@ -10,9 +10,10 @@
 namespace screwline {
 
 struct DerivationOptions {
-  /// Of fk, jacobian, propagation, determinant, singularities; empty: all.
+  /// Of fk, jacobian, propagation, determinant, singularities, ik; empty: all.
   std::vector<std::string> quantities;
   DocumentFormat format = DocumentFormat::kMarkdown;
+  std::vector<std::string> inverse;  ///< Lines that tell of inverse kinematics (ik/method_summary.h), for `ik`.
   SymbolicOptions symbolic;
   int check_configurations = 100;  ///< Random ones at which each formula is compared with the numeric core.
   Progress progress;

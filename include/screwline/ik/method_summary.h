@@ -1,0 +1,17 @@
+#ifndef SCREWLINE_IK_METHOD_SUMMARY_H
+#define SCREWLINE_IK_METHOD_SUMMARY_H
+
+#include <string>
+#include <vector>
+
+#include "screwline/ik/inverse_kinematics.h"
+
+namespace screwline {
+
+/// For people, a line each: what the axes share, the method that follows from it, whether it finds every solution, the
+/// branches that solutions can have. No formulas. Allocates.
+std::vector<std::string> summaryOf(const InverseKinematics& ik);
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_IK_METHOD_SUMMARY_H

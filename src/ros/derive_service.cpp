@@ -1,0 +1,41 @@
+#include <ros/init.h>
+
+#include <algorithm>
+
+#include "screwline/ik/method_summary.h"
+#include "screwline/ros/checks.h"
+#include "screwline/ros/kinematics_server.h"
+#include "screwline/symbolic/derivation.h"
+
+namespace screwline {
+namespace ros_bridge {
+
+Outcome KinematicsServer::derive(const Derive::Request& request, Derive::Response& response) const {
+  const SerialChain& chain = *robot_.chain;
+  constexpr std::size_t kMostQuantities = 100;
+  requireCount(request.quantities.size(), kMostQuantities, "quantities");
+  DerivationOptions options;
+  options.quantities = request.quantities;
+  options.format = documentFormatOf(request.format.empty() ? "markdown" : request.format);
+  options.inverse = summaryOf(*solverFor(linkOrTip("", "tip_link"), robot_.task));
+  options.progress.time_limit = params_.derive_timeout;
+  options.progress.cancelled = [] { return ros::isShuttingDown(); };
+  response.joint_names = chain.jointNames();
+  response.task = robot_.task.names();
+  try {
+    Derivation derived = deriveDocument(chain, robot_.task, options);
+    response.document = std::move(derived.document);
+    response.factors = std::move(derived.factors);
+    response.symbols = std::move(derived.symbols);
+    response.symbol_values = std::move(derived.symbol_values);
+    response.worst_deviation = derived.worst_deviation;
+  } catch (const DerivationStopped& stopped) {
+    throw InputError(AnswerCode::kTimedOut, stopped.what());
+  }
+  const auto& asked = request.quantities;
+  const bool inverse = asked.empty() || std::find(asked.begin(), asked.end(), "ik") != asked.end();
+  return {AnswerCode::kSuccess, inverse ? "ik: the method and its branches, no formulas" : ""};
+}
+
+}  // namespace ros_bridge
+}  // namespace screwline
