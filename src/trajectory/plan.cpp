@@ -51,6 +51,14 @@ void noteInfiniteOrders(const JointTrajectory& trajectory, const std::string& pr
   }
 }
 
+/// What a controller that follows the motion asks first: how smooth it is and how near it comes to what was given.
+void noteContinuity(const JointTrajectory& trajectory, const MatrixX& via_errors, std::vector<std::string>& notes) {
+  if (via_errors.rows() == 0) return;
+  notes.push_back("continuity class C" + std::to_string(trajectory.continuity()) +
+                  "; largest joint deviation from an intermediate waypoint " +
+                  number(via_errors.cwiseAbs().maxCoeff()));
+}
+
 MatrixX viaErrors(const ProfileDraft& draft, const std::vector<PathPoint>& waypoints) {
   const Eigen::Index vias = waypoints.size() > 2 ? static_cast<Eigen::Index>(waypoints.size()) - 2 : 0;
   MatrixX errors(vias, draft.trajectory.joints());
@@ -91,6 +99,7 @@ PlanResult plan(const PlanRequest& request) {
   PlanResult result;
   result.sample_period = period;
   result.via_joint_errors = viaErrors(draft, request.waypoints);
+  noteContinuity(draft.trajectory, result.via_joint_errors, draft.notes);
   result.trajectory = std::move(draft.trajectory);
   result.waypoint_times = std::move(draft.waypoint_times);
   result.notes = std::move(draft.notes);
