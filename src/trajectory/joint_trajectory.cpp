@@ -146,7 +146,7 @@ void JointTrajectory::sample(double t, double* position, double* velocity, doubl
 
 void JointTrajectory::sampleScaled(double t, const SampleOutput& output) const {
   if (!table_.empty()) {
-    scaleDelta(table_.at(t), start_.data(), delta_.data(), joints_, output);
+    kernels_->delta(table_.at(t), start_.data(), delta_.data(), joints_, output);
     return;
   }
   const double r = inverse_duration_;
@@ -158,12 +158,12 @@ void JointTrajectory::sampleScaled(double t, const SampleOutput& output) const {
 
 void JointTrajectory::samplePath(double t, const SampleOutput& output) const {
   double u[4] = {0.0, 0.0, 0.0, 0.0};  // And its derivatives by time.
-  if (!table_.empty()) evaluateScaling(table_.at(t), u);
+  if (!table_.empty()) kernels_->scaling(table_.at(t), u);
   const std::size_t k = path_.segmentAt(u[0]);
   const double r = path_.inverseLength(k);
   const double x = std::min(std::max((u[0] - path_.breaks()[k]) * r, 0.0), 1.0);
   const double d1 = u[1] * r, d2 = u[2] * r, d3 = u[3] * r;
-  evaluateSegment(path_.segment(k), x, {d1, d2, d1 * d1, d3, 3.0 * d1 * d2, d1 * d1 * d1}, output);
+  kernels_->segment(path_.segment(k), x, {d1, d2, d1 * d1, d3, 3.0 * d1 * d2, d1 * d1 * d1}, output);
 }
 
 void JointTrajectory::samplePieces(double t, const SampleOutput& output) const {
@@ -173,7 +173,7 @@ void JointTrajectory::samplePieces(double t, const SampleOutput& output) const {
   const double r = span.inverse_length;
   const double x = t >= span.end && r > 0.0 ? 1.0 : (t - span.start) * r;
   const SegmentCoefficients segment{pieces_.coefficients.data() + k * stride_, joints_, pieces_.degree};
-  evaluateSegment(segment, x, {r, 0.0, r * r, 0.0, 0.0, r * r * r}, output);
+  kernels_->segment(segment, x, {r, 0.0, r * r, 0.0, 0.0, r * r * r}, output);
 }
 
 void JointTrajectory::sampleSinusoid(double t, const SampleOutput& output) const {

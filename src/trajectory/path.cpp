@@ -63,7 +63,7 @@ void JointPath::at(double u, double* q, double* first, double* second, double* t
   const std::size_t k = segmentAt(inside);
   const double r = inverse_lengths_[k];
   const double x = inside >= curve_.breaks[k + 1] ? 1.0 : (inside - curve_.breaks[k]) * r;
-  evaluateSegment(segment(k), x, {r, 0.0, r * r, 0.0, 0.0, r * r * r}, {q, first, second, third});
+  sampleKernels().segment(segment(k), x, {r, 0.0, r * r, 0.0, 0.0, r * r * r}, {q, first, second, third});
 }
 
 JointPath naturalSplinePath(const std::vector<double>& u, const MatrixX& positions) {

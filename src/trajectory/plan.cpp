@@ -53,6 +53,14 @@ void noteInfiniteOrders(const JointTrajectory& trajectory, const std::string& pr
   }
 }
 
+/// What a controller that follows the motion asks first: how smooth it is and how near it comes to what was given.
+void noteContinuity(const JointTrajectory& trajectory, const MatrixX& via_errors, std::vector<std::string>& notes) {
+  if (via_errors.rows() == 0) return;
+  notes.push_back("continuity class C" + std::to_string(trajectory.continuity()) +
+                  "; largest joint deviation from an intermediate waypoint " +
+                  number(via_errors.cwiseAbs().maxCoeff()));
+}
+
 MatrixX viaErrors(const ProfileDraft& draft, const std::vector<VectorX>& waypoints) {
   const Eigen::Index vias = waypoints.size() > 2 ? static_cast<Eigen::Index>(waypoints.size()) - 2 : 0;
   MatrixX errors(vias, draft.trajectory.joints());
@@ -105,6 +113,7 @@ PlanResult planAsGiven(const PlanRequest& request, const Profile& profile) {
   PlanResult result;
   result.sample_period = period;
   result.via_joint_errors = viaErrors(draft, draft.waypoints);
+  noteContinuity(draft.trajectory, result.via_joint_errors, draft.notes);
   result.trajectory = std::move(draft.trajectory);
   result.waypoint_times = std::move(draft.waypoint_times);
   result.waypoints = std::move(draft.waypoints);

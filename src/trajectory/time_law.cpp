@@ -94,7 +94,7 @@ ScalingSample TimeLaw::at(double tau) const {
     return {tau - sine / kTwoPi, 1.0 - cosine, kTwoPi * sine, kTwoPi * kTwoPi * cosine};
   }
   std::array<double, 4> values;
-  evaluateScaling(table_.at(tau), values.data());
+  sampleKernels().scaling(table_.at(tau), values.data());
   return {values[0], values[1], values[2], values[3]};
 }
 

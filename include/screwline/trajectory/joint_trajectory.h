@@ -97,6 +97,7 @@ class JointTrajectory {
   JointExtrema pathExtrema(int joint) const;
   JointExtrema sinusoidExtrema(int joint) const;
 
+  const SampleKernels* kernels_ = &sampleKernels();
   Form form_ = Form::kPiecewise;
   int joints_ = 0;
   double duration_ = 0.0;

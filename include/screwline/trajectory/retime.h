@@ -43,13 +43,13 @@ struct RetimeResult {
   double end_rate = 0.0;
 };
 
-/// The shortest motion along a path under the velocity and acceleration limits (and the jerk limits where they are
-/// finite: then a feasible one that is longer, not proved shortest). The limits hold everywhere, between grid points
-/// too: over each interval acceleration by u is constant, so joint accelerations are polynomials of u, whose control
-/// points in Bernstein form are held within the limits. Reachability analysis (Pham & Pham, arXiv 1707.07239):
-/// backwards the interval of speeds from which the end can be reached, one linear program of two variables per grid
-/// interval, forwards the fastest within them. Linear in grid points. A path that turns is stopped at. Position limits
-/// are not read. JointTrajectory::alongPath(path, law, duration) is the motion.
+/// The shortest motion along a path under the velocity and acceleration limits; jerk limits are not read, acceleration
+/// steps where the limit that binds changes. The limits hold everywhere, between grid points too: over each interval
+/// acceleration by u is constant, so joint accelerations are polynomials of u, whose control points in Bernstein form
+/// are held within the limits. Reachability analysis (Pham & Pham, arXiv 1707.07239): backwards the interval of speeds
+/// from which the end can be reached, one linear program of two variables per grid interval, forwards the fastest
+/// within them. Linear in grid points. A path that turns is stopped at. Position limits are not read.
+/// JointTrajectory::alongPath(path, law, duration) is the motion.
 /// @pre path has a length and moves; limits of its joints, positive. @throws InputError(kInvalidGoal) otherwise or
 /// where no limit bounds the motion.
 RetimeResult retime(const JointPath& path, const Limits& limits, const RetimeOptions& options = {});

@@ -29,11 +29,6 @@ struct SampleOutput {
   double* jerk = nullptr;
 };
 
-/// Position and three derivatives of all joints in one pass of Horner's scheme, neighbouring joints side by side in a
-/// register; which registers there are is decided when it runs. Does not allocate.
-void evaluateSegment(const SegmentCoefficients& segment, double x, const ChainFactors& chain,
-                     const SampleOutput& output);
-
 /// The polynomial piece of a scalar s: row k holds the coefficients of x^k in s, s', s'', s''' (4 values), all rows up
 /// to x^7 or, where not long, to x^3.
 struct ScalingRows {
@@ -42,13 +37,23 @@ struct ScalingRows {
   double x = 0.0;  ///< In [0, 1].
 };
 
-/// s and its three derivatives into 4 values. Does not allocate.
-void evaluateScaling(const ScalingRows& scaling, double* values);
-
-/// One scalar for all joints: start + delta s, delta s', delta s'', delta s'''. Does not allocate.
-void scaleDelta(const ScalingRows& scaling, const double* start, const double* delta, int joints,
+/// How a motion is sampled. None of the functions allocates.
+struct SampleKernels {
+  /// Position and three derivatives of all joints in one pass of Horner's scheme, neighbouring joints side by side in a
+  /// register.
+  void (*segment)(const SegmentCoefficients& segment, double x, const ChainFactors& chain, const SampleOutput& output);
+  /// s and its three derivatives into 4 values.
+  void (*scaling)(const ScalingRows& scaling, double* values);
+  /// One scalar for all joints: start + delta s, delta s', delta s'', delta s'''.
+  void (*delta)(const ScalingRows& scaling, const double* start, const double* delta, int joints,
                 const SampleOutput& output);
-/// The same from the 4 values.
+};
+
+/// For the processor that this runs on (AVX2 and FMA where it has them), and for any: the same but for rounding.
+const SampleKernels& sampleKernels();
+const SampleKernels& plainSampleKernels();
+
+/// start + delta s and its derivatives from the 4 values of s. Does not allocate.
 void scaleDelta(const double* values, const double* start, const double* delta, int joints, const SampleOutput& output);
 
 }  // namespace screwline
