@@ -78,7 +78,15 @@ Range shifted(const Range& range, double by) {
   return {range.lower + by, range.upper + by};
 }
 
+/// Along a path the composed polynomials are not kept, but their extrema are.
+Range alongPath(const JointExtrema& extrema, int order) {
+  if (order == 0) return extrema.position;
+  const double peak = extrema.peak(order);
+  return {-peak, peak};
+}
+
 Range inside(const JointTrajectory& trajectory, int joint, int order, double from, double to) {
+  if (trajectory.path() != nullptr) return alongPath(trajectory.extrema(joint), order);
   if (const PiecewisePolynomial* pieces = trajectory.pieces()) {
     return pieces->segments() > 0 ? piecesOver(*pieces, joint, order, from, to) : Range{};
   }

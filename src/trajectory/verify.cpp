@@ -70,6 +70,36 @@ std::vector<double> stretchesOf(const JointTrajectory& trajectory) {
   return instants;
 }
 
+/// Along a path the exact extrema are compared (its rates ride on their limits: no enclosure but these is tight enough);
+/// samples tell about when.
+std::optional<Breach> breachAlongPath(const JointTrajectory& trajectory, int index, int order, const Range& range) {
+  const Range reached = enclosure(trajectory, index, order, 0.0, trajectory.duration());
+  if (reached.lower >= range.lower && reached.upper <= range.upper) return std::nullopt;
+  constexpr int kSamples = 1000;
+  TrajectoryPoint point(trajectory.joints());
+  Breach largest;
+  for (int k = 0; k <= kSamples; ++k) {
+    const double time = trajectory.duration() * k / kSamples;
+    trajectory.sample(time, point);
+    const double value = valueOf(point, index, order);
+    if (std::abs(value) > std::abs(largest.value)) largest = {time, value};
+  }
+  const bool inside = largest.value >= range.lower && largest.value <= range.upper;
+  if (inside) largest.value = reached.lower < range.lower ? reached.lower : reached.upper;
+  return largest;
+}
+
+/// Over all of the motion.
+std::optional<Breach> breachOf(const JointTrajectory& trajectory, const std::vector<double>& stretches, int index,
+                               int order, const Range& range) {
+  if (trajectory.path() != nullptr) return breachAlongPath(trajectory, index, order, range);
+  Prover prover(trajectory, index, order, range);
+  for (std::size_t k = 1; k < stretches.size(); ++k) {
+    if (const auto breach = prover.over(stretches[k - 1], stretches[k])) return breach;
+  }
+  return std::nullopt;
+}
+
 /// NaN and infinity are breaches of any bound.
 std::optional<std::string> checkOrder(const JointTrajectory& trajectory, const std::vector<double>& stretches,
                                       int index, int order, const Range& bound, double tolerance) {
@@ -80,16 +110,12 @@ std::optional<std::string> checkOrder(const JointTrajectory& trajectory, const s
                                 : Range{bound.lower - slack[0], bound.upper + slack[1]};
   constexpr double kAnything = 1e300;
   const Range finite{std::max(range.lower, -kAnything), std::min(range.upper, kAnything)};
-  Prover prover(trajectory, index, order, finite);
-  for (std::size_t k = 1; k < stretches.size(); ++k) {
-    const auto breach = prover.over(stretches[k - 1], stretches[k]);
-    if (!breach) continue;
-    const bool low = breach->value < finite.lower;
-    const std::string side = order > 0 ? "limit" : low ? "lower limit" : "upper limit";
-    return joint(index) + kOrderNames[order] + " reaches " + number(breach->value) + " at " + number(breach->time) +
-           " s, its " + side + " is " + number(low ? bound.lower : bound.upper);
-  }
-  return std::nullopt;
+  const auto breach = breachOf(trajectory, stretches, index, order, finite);
+  if (!breach) return std::nullopt;
+  const bool low = breach->value < finite.lower;
+  const std::string side = order > 0 ? "limit" : low ? "lower limit" : "upper limit";
+  return joint(index) + kOrderNames[order] + " reaches " + number(breach->value) + " at " + number(breach->time) +
+         " s, its " + side + " is " + number(low ? bound.lower : bound.upper);
 }
 
 /// Orders of which the one below steps are infinite whatever the limit is: see plan.h.

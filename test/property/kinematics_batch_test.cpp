@@ -222,9 +222,15 @@ TEST(BatchCancellation, StopsBetweenPieces) {
     int asked = 0;
     BatchOptions options;
     options.threads = threads;
-    options.cancelled = [&asked] { return ++asked > 2; };
-    EXPECT_FALSE(ask(chain, q, options).done);
-    EXPECT_EQ(asked, 3);
+    // Only the calling thread asks; how many pieces the others leave to it is their luck, but for the first question.
+    const int patience = threads == 1 ? 2 : 0;
+    options.cancelled = [&asked, patience] { return ++asked > patience; };
+    if (ask(chain, q, options).done) {
+      EXPECT_GT(threads, 1);  // The others had taken all before it could ask.
+      EXPECT_EQ(asked, 0);
+    } else {
+      EXPECT_EQ(asked, patience + 1);
+    }
     options.cancelled = [] { return false; };
     EXPECT_TRUE(ask(chain, q, options).done);
   }

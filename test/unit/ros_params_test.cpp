@@ -86,7 +86,7 @@ TEST(KinematicsParams, WrongValuesNameTheBound) {
 }
 
 TEST(KinematicsParams, UnknownKey) {
-  expectBad(with("ik_timout", 0.1), "~ik_timout is no parameter; known are base_link, batch_timeout, ik_timeout");
+  expectBad(with("ik_timout", 0.1), "~ik_timout is no parameter; known are base_link, batch_timeout, derive_timeout");
 }
 
 TEST(PlanningLimits, FlagsAreObeyed) {

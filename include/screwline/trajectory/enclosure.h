@@ -16,7 +16,8 @@ namespace screwline {
 Range enclosure(const Polynomial& polynomial, double from, double to);
 
 /// Of one derivative (0 position .. 3 jerk, by time) of one joint over [from, to] seconds: closed pieces, so that at a
-/// corner both sides count. Outside of [0, duration] the ends are held, with no derivatives.
+/// corner both sides count. Outside of [0, duration] the ends are held, with no derivatives. Along a path: of the whole
+/// motion, however short the stretch.
 Range enclosure(const JointTrajectory& trajectory, int joint, int order, double from, double to);
 
 /// The least interval that holds both.
