@@ -88,9 +88,11 @@ class Gathering {
   std::vector<Signs> signs_;
 };
 
-void addContinua(const ParallelMethod& method, const SerialChain& chain, const Pose& target, const VectorX& seed,
+/// False where there is none after all.
+bool addContinua(const ParallelMethod& method, const SerialChain& chain, const Pose& target, const VectorX& seed,
                  const ParallelSolutions& solutions, Gathering& gathering) {
   bool any = false;
+  bool sheets = false;
   for (int joint = 0; joint < 6; ++joint) {
     if ((solutions.open >> joint & 1U) == 0U) continue;
     std::vector<PlanSolution> points;
@@ -99,10 +101,15 @@ void addContinua(const ParallelMethod& method, const SerialChain& chain, const P
       any = true;
     }
     for (const PlanSolution& point : points) gathering.addIsolated(point, vectorOf(point));
+    any = any || !points.empty();
   }
   for (const PlanSolution& solution : solutions) {
-    if ((solution.free & (solution.free - 1U)) != 0U && !any) gathering.addSheet(solution);
+    if ((solution.free & (solution.free - 1U)) != 0U && !any) {
+      gathering.addSheet(solution);
+      sheets = true;
+    }
   }
+  return any || sheets;
 }
 
 }  // namespace
@@ -133,7 +140,7 @@ ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain&
     }
     gathering.addIsolated(solution, q);
   }
-  if (solutions.open != 0) addContinua(method, chain, target, seed, solutions, gathering);
+  if (solutions.open != 0 && !addContinua(method, chain, target, seed, solutions, gathering)) eliminate = true;
   ParallelCandidates result;
   result.complete = !refuted && !eliminate;
   if ((solutions.clamped != 0 || eliminate) && method.algebraic) {

@@ -142,13 +142,13 @@ VectorX specialTurns(test::ArmMaker& maker, double offset) {
 
 TEST_P(IkParallel, LosesNothingThatEliminationFindsAtAndNearSpecialConfigurations) {
   int compared = 0;
-  for (int arm = 0; arm < 4; ++arm) {
+  for (int arm = 0; arm < 2; ++arm) {
     const SerialChain chain = arms_.make(GetParam());
     const InverseKinematics ik(chain, Task());
     const std::optional<AlgebraicSolver> algebraic = AlgebraicSolver::compile(chain);
     ASSERT_TRUE(algebraic.has_value());
     for (double offset : kOffsets) {
-      for (int trial = 0; trial < 8; ++trial) {
+      for (int trial = 0; trial < 5; ++trial) {
         const VectorX q = specialTurns(maker_, offset);
         SCOPED_TRACE(test::ParallelArmMaker::name(GetParam()) + ", arm " + std::to_string(arm) + ", offset " +
                      std::to_string(std::log10(offset)) + ", seed " + std::to_string(kSeed));
@@ -176,7 +176,7 @@ TEST_P(IkParallel, LosesNothingThatEliminationFindsAtAndNearSpecialConfiguration
       }
     }
   }
-  EXPECT_GT(compared, 100);
+  EXPECT_GT(compared, 50);
 }
 
 TEST_P(IkParallel, FindsAsManyAsAnExhaustiveSearch) {

@@ -9,7 +9,7 @@ namespace screwline {
 namespace {
 
 constexpr double kRounding = 2e-15;    // [rad] of a direction that came through a few rotations.
-constexpr double kMostInLine = 1e-12;  // What errors of the inputs may add to that.
+constexpr double kMostInLine = 1e-13;  // What errors of the inputs may add to that.
 constexpr double kInLine = 1e-14;      // Sine below which a direction counts as in line with an axis.
 
 }  // namespace
@@ -55,7 +55,7 @@ void DirectionProblem::solve(const Vector3& start, const Vector3& goal, double e
     DirectionSolution solution;
     solution.sign = one ? 0 : sign;
     solution.first_loose = by_first;
-    solution.clamped = slack < -kDoubleRootTolerance;
+    solution.clamped = !free && slack < -kDoubleRootTolerance;
     solution.first_free = free && by_first;
     solution.second_free = free && !by_first;
     solution.error = (kRounding + error) / least_height;
