@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kClosestRestarts = 256;  // Starts for the best reachable configuration: fewer were seen to miss it.
 
+constexpr int kDoubtRestarts = 16;
 constexpr double kAlmostSingular = 1e-3;  // Manipulability, lengths in the chain's, below which solutions may meet.
 
 bool isNearer(const IkAnswer& a, const IkAnswer& b) {
@@ -91,6 +92,7 @@ struct InverseKinematics::Implementation {
   void admit(const IkRequest& request, const IkAnswer& solution, const SolutionBuilder& builder,
              IkResult& result) const;
   void dropRepeated(IkResult& result) const;
+  void doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
   void conclude(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   std::string account(const IkRequest& request, const IkResult& result) const;
@@ -221,6 +223,22 @@ void InverseKinematics::Implementation::admit(const IkRequest& request, const Ik
     turned.position = q;
     turned.distance = (q - builder.seed()).norm();
     result.solutions.push_back(turned);
+  }
+}
+
+/// A method whose geometry breaks down at this very pose has no candidates: a few descents tell it from a pose out of
+/// reach.
+void InverseKinematics::Implementation::doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder,
+                                                         IkResult& result) const {
+  SearchOptions options;
+  options.restarts = kDoubtRestarts;
+  options.max_solutions = 1;
+  options.timeout = request.timeout;
+  options.descent.honour_limits = false;
+  for (const VectorX& q : search(chain, task, request.target, {builder.seed()}, options).solutions) {
+    result.complete = false;
+    const std::optional<IkAnswer> solution = builder.build(searched(q));
+    if (solution) admit(request, *solution, builder, result);
   }
 }
 
@@ -369,6 +387,7 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
     any = self.gather(request, builder, result);
   }
   self.admitSeed(builder, result);
+  if (result.complete && !any && result.solutions.empty()) self.doubtUnreachable(request, builder, result);
   const bool existed = result.outside_limits > 0 || !result.solutions.empty();
   self.conclude(request, builder, result);
   if (result.solutions.empty()) {
