@@ -12,7 +12,7 @@ BUILD_PACKAGES=(
   libeigen3-dev liburdfdom-dev libconsole-bridge-dev libtinyxml2-dev libyaml-cpp-dev libginac-dev
 )
 RUN_PACKAGES=(
-  python3-std-msgs python3-geometry-msgs python3-sensor-msgs python3-trajectory-msgs python3-visualization-msgs python3-std-srvs
+  python3-std-msgs python3-geometry-msgs python3-sensor-msgs python3-trajectory-msgs python3-visualization-msgs python3-std-srvs python3-diagnostic-msgs
   python3-tf2-msgs python3-tf2-ros python3-rospy python3-roslaunch python3-rosbag python3-rosservice python3-rostopic python3-rosnode
   python3-rosparam python3-rosmsg python3-rosgraph python3-yaml python3-numpy python3-matplotlib
   rosbash rospack-tools ros-robot-state-publisher joint-state-publisher

@@ -26,7 +26,8 @@ GeneratorSinks publishers(ros::NodeHandle& node) {
           publisher<sensor_msgs::JointState>(node, kStateStream),
           publisher<screwline::TimeScaling>(node, kScalingStream),
           publisher<geometry_msgs::PoseStamped>(node, kPoseStream),
-          publisher<geometry_msgs::TwistStamped>(node, kTwistStream)};
+          publisher<geometry_msgs::TwistStamped>(node, kTwistStream),
+          publisher<diagnostic_msgs::DiagnosticArray>(node, kDiagnosticsStream)};
 }
 
 void generate(ros::NodeHandle& private_node) {

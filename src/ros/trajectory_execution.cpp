@@ -66,7 +66,7 @@ Outcome TrajectoryGenerator::executePlanned(const PlannedMotion& planned) {
   const auto started =
       executor_.replace([&](const MotionState& present) { return startFrom(present, planned.trajectory, limits_); });
   const std::string message = announce(started, planned.message);
-  sinks_.metrics(planned.metrics);
+  announceMetrics(planned.metrics);
   return {AnswerCode::kSuccess, message};
 }
 
@@ -92,7 +92,7 @@ Outcome TrajectoryGenerator::executeGiven(const trajectory_msgs::JointTrajectory
   const auto started = executor_.replace([&](const MotionState& state) { return motionThrough(points, state); });
   const JointTrajectory& main = started.motion->main();
   const std::string message = announce(started, toMessage(*robot_.chain, points, main.duration()));
-  sinks_.metrics(metricsOf(robot_.chain, main, limits_, points.back().position));
+  announceMetrics(metricsOf(robot_.chain, main, limits_, points.back().position));
   return {AnswerCode::kSuccess, message};
 }
 
@@ -102,6 +102,31 @@ std::string TrajectoryGenerator::paceNote() const {
   const double speed = executor_.speed();
   if (speed == 0.0) return std::string("it waits for a ") + kSpeedTopic + " above 0";
   return speed < 1.0 ? "at " + numberText(speed) + " of its speed" : "";
+}
+
+void TrajectoryGenerator::announceMetrics(const TrajectoryMetrics& metrics) {
+  const std::lock_guard<std::mutex> lock(metrics_mutex_);
+  metrics_ = metrics;
+  sinks_.metrics(metrics);
+}
+
+/// With the metrics again at a motion's end where a controlled robot followed it.
+void TrajectoryGenerator::stream(const StreamSample& sample) {
+  streams_.publish(sample);
+  reporter_.take(sample);
+  if (!sample.last) return;
+  const TrackingError errors = reporter_.tracking();
+  if (!errors.any()) return;
+  const std::lock_guard<std::mutex> lock(metrics_mutex_);
+  if (metrics_.joint_names.empty()) return;
+  metrics_.tracking_error_max = errors.peak();
+  metrics_.tracking_error_rms = errors.rms();
+  sinks_.metrics(metrics_);
+}
+
+void TrajectoryGenerator::track(const sensor_msgs::JointState& measured) {
+  const auto due = executor_.stateInMotion(static_cast<Nanoseconds>(measured.header.stamp.toNSec()));
+  if (due) reporter_.track(measured, due->position);
 }
 
 Outcome TrajectoryGenerator::execute(const ExecuteTrajectory::Request& request, ExecuteTrajectory::Response&) {

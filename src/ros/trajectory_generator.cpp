@@ -37,6 +37,21 @@ ros::ServiceServer offerTrigger(ros::NodeHandle& node, const std::string& name, 
   return node.advertiseService<Request, Response>(name, callback);
 }
 
+/// Takes messages of a topic; one that is refused is warned of.
+template <typename Message>
+ros::Subscriber listen(ros::NodeHandle& node, const std::string& topic,
+                       const std::function<void(const Message&)>& take) {
+  const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+      [topic, take](const boost::shared_ptr<const Message>& message) {
+        try {
+          take(*message);
+        } catch (const std::exception& error) {
+          ROS_WARN_STREAM_THROTTLE(1.0, "topic " << topic << " is refused: " << error.what());
+        }
+      };
+  return node.subscribe<Message>(topic, 100, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+}
+
 VectorX initialPosition(const SerialChain& chain, const std::vector<double>& given) {
   if (given.empty()) return chain.clamped(VectorX::Zero(chain.size()));
   if (given.size() != static_cast<std::size_t>(chain.size())) {
@@ -62,19 +77,18 @@ TrajectoryGenerator::TrajectoryGenerator(ServedRobot robot, const TrajectoryPara
       sinks_(sinks),
       planner_(robot_, params.ik_timeout, std::move(lookup)),
       streams_(robot_.chain, sinks),
+      reporter_(robot_.chain, params.rate, sinks.diagnostics),
+      tracked_topic_(params.tracked_joint_states),
       executor_(initialPosition(*robot_.chain, params.initial_position), params.rate, limits_, std::move(clock),
-                [this](const StreamSample& sample) { streams_.publish(sample); }) {}
+                [this](const StreamSample& sample) { stream(sample); }) {}
 
 void TrajectoryGenerator::advertise(ros::NodeHandle& private_node, ros::NodeHandle& node) {
-  const boost::function<void(const std_msgs::Float64::ConstPtr&)> take =
-      [this](const std_msgs::Float64::ConstPtr& speed) {
-        try {
-          setSpeed(speed->data);
-        } catch (const std::exception& error) {
-          ROS_WARN_STREAM("refused: " << error.what());
-        }
-      };
-  speed_ = node.subscribe<std_msgs::Float64>(kSpeedTopic, 1, take);
+  speed_ =
+      listen<std_msgs::Float64>(node, kSpeedTopic, [this](const std_msgs::Float64& speed) { setSpeed(speed.data); });
+  if (!tracked_topic_.empty()) {
+    tracked_ = listen<sensor_msgs::JointState>(node, tracked_topic_,
+                                               [this](const sensor_msgs::JointState& state) { track(state); });
+  }
   services_ = {
       offer<PlanTrajectory>(private_node, kPlanService,
                             [this](const auto& request, auto& response) { return plan(request, response); }),

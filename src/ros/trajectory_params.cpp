@@ -11,6 +11,7 @@ namespace ros_bridge {
 namespace {
 
 constexpr char kRateParam[] = "rate";
+constexpr char kTrackedStatesParam[] = "tracked_joint_states";
 constexpr char kInitialPositionParam[] = "initial_position";
 constexpr double kLowestRate = 1.0;         // Hz
 constexpr double kHighestRate = 1000.0;     // Hz
@@ -55,6 +56,7 @@ TrajectoryParams readTrajectoryParams(const XmlRpc::XmlRpcValue& private_params)
   params.rate = readRate(reader, params.rate);
   params.ik_timeout = reader.number(kIkTimeoutParam, params.ik_timeout, 0.0, kLongestTimeout);
   params.threads = reader.integer(kThreadsParam, params.threads, 0, kMostThreads);
+  params.tracked_joint_states = reader.text(kTrackedStatesParam, params.tracked_joint_states);
   params.initial_position = readPosition(reader, private_params);
   reader.refuseUnknown();
   return params;

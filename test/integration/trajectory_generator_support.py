@@ -54,7 +54,7 @@ def wait_for(condition, seconds=20.0):
 
 class Generator(ServedNode):
     NODE = 'trajectory_generator'
-    SERVICES = {'plan': PlanTrajectory, 'execute': ExecuteTrajectory, 'stop': Trigger, 'list_profiles': ListProfiles}
+    SERVICES = {'plan': PlanTrajectory, 'execute': ExecuteTrajectory, 'stop': Trigger, 'pause': Trigger, 'resume': Trigger, 'list_profiles': ListProfiles}
 
     def planned(self, profile, *positions, **fields):
         """The answer to a good plan request."""

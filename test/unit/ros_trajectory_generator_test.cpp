@@ -1,6 +1,8 @@
 #include "screwline/ros/trajectory_generator.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "screwline/kinematics/forward.h"
 #include "screwline/ros/conversions.h"
@@ -37,6 +39,7 @@ struct Bench {
   std::vector<TimeScaling> scalings;
   std::vector<geometry_msgs::PoseStamped> poses;
   std::vector<geometry_msgs::TwistStamped> twists;
+  std::vector<diagnostic_msgs::DiagnosticArray> diagnostics;
   TrajectoryGenerator generator;
 
   template <typename Message>
@@ -51,7 +54,8 @@ struct Bench {
                     return Pose{Matrix3::Identity(), Vector3(0.1, 0.2, 0.0)};
                   },
                   clock.clock(),
-                  {into(trajectories), into(metrics), into(states), into(scalings), into(poses), into(twists)}) {}
+                  {into(trajectories), into(metrics), into(states), into(scalings), into(poses), into(twists),
+                   into(diagnostics)}) {}
 
   PlanTrajectory::Response plan(const PlanTrajectory::Request& request) {
     PlanTrajectory::Response response;
@@ -162,6 +166,90 @@ TEST(TrajectoryGenerator, StopsAndSaysSo) {
   bench.run(200);
   EXPECT_EQ(bench.states.back().velocity, std::vector<double>(3, 0.0));
   EXPECT_LT(bench.states.back().position[0], 0.45);
+}
+
+std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status, const std::string& key) {
+  for (const auto& entry : status.values) {
+    if (entry.key == key) return entry.value;
+  }
+  return "";
+}
+
+TEST(TrajectoryGenerator, TellsHowItKeepsItsDeadlines) {
+  Bench bench;
+  int sleeps = 0;
+  bench.clock.lateness = [&sleeps] { return ++sleeps % 50 == 0 ? 25000000 : 80000; };
+  bench.run(3);
+  ASSERT_TRUE(bench.plan(question("polynomial_345", 3.0)).success);
+  bench.execute();
+  bench.run(400);
+  ASSERT_GE(bench.diagnostics.size(), 4U);  // Each second, and at the end.
+  const auto& last = bench.diagnostics[bench.diagnostics.size() - 1];
+  const auto whole = std::find_if(bench.diagnostics.begin(), bench.diagnostics.end(),
+                                  [](const auto& d) { return valueOf(d.status.back(), "samples") == "301"; });
+  ASSERT_NE(whole, bench.diagnostics.end()) << "at the end, of the motion with its first and last sample";
+  const auto& motion = whole->status[1];
+  EXPECT_EQ(motion.name, "trajectory_generator: motion");
+  EXPECT_NEAR(std::stod(valueOf(motion, "achieved rate [Hz]")), 100.0, 1.0);
+  EXPECT_NEAR(std::stod(valueOf(motion, "jitter p50 [us]")), 80.0, 4.0);
+  EXPECT_NEAR(std::stod(valueOf(motion, "jitter max [us]")), 25000.0, 0.1);
+  EXPECT_GE(std::stoi(valueOf(motion, "missed deadlines")), 4);
+  EXPECT_EQ(motion.level, diagnostic_msgs::DiagnosticStatus::WARN);
+  EXPECT_EQ(last.status[0].name, "trajectory_generator: stream");
+}
+
+TEST(TrajectoryGenerator, TellsHowWellARobotFollows) {
+  Bench bench;
+  bench.run(3);
+  ASSERT_TRUE(bench.plan(question("polynomial_345", 1.0)).success);
+  bench.execute();
+  double squares = 0.0;
+  const int before = static_cast<int>(bench.states.size());
+  for (int i = 0; i < 100; ++i) {
+    bench.run(1);
+    sensor_msgs::JointState measured = bench.states.back();
+    const double off = 0.01 * std::sin(0.3 * i);
+    measured.position[1] += off;
+    std::swap(measured.name[0], measured.name[2]);
+    std::swap(measured.position[0], measured.position[2]);
+    bench.generator.track(measured);
+    if (i > 0) squares += off * off;
+  }
+  EXPECT_EQ(bench.metrics.size(), 1U);
+  bench.run(10);
+  ASSERT_EQ(bench.metrics.size(), 2U) << before;
+  const TrajectoryMetrics& metrics = bench.metrics.back();
+  EXPECT_NEAR(metrics.tracking_error_max[1], 0.01, 1e-4);
+  EXPECT_NEAR(metrics.tracking_error_rms[1], std::sqrt(squares / 99.0), 2e-4);
+  EXPECT_NEAR(metrics.tracking_error_max[0], 0.0, 1e-8);
+  sensor_msgs::JointState bad = bench.states.back();
+  bad.position[0] = std::nan("");
+  EXPECT_NO_THROW(bench.generator.track(bad)) << "nothing runs: nothing is compared";
+  bench.execute();
+  bench.run(20);
+  bad.header.stamp = bench.states.back().header.stamp;
+  EXPECT_THROW(bench.generator.track(bad), InputError);
+}
+
+TEST(TrajectoryGenerator, PausesAndTellsWhen) {
+  Bench bench;
+  bench.run(3);
+  EXPECT_EQ(bench.generator.resume().message, "nothing is paused");
+  ASSERT_TRUE(bench.plan(question("polynomial_345", 2.0)).success);
+  bench.execute();
+  bench.run(80);
+  EXPECT_NE(bench.generator.pause().message.find("at rest on its path in"), std::string::npos);
+  EXPECT_EQ(bench.generator.pause().message, "paused already");
+  bench.run(100);
+  EXPECT_EQ(bench.states.back().velocity, std::vector<double>(3, 0.0));
+  EXPECT_NE(bench.generator.resume().message.find("at its speed in"), std::string::npos);
+  bench.run(300);
+  EXPECT_NEAR(bench.states.back().position[0], 0.5, 1e-12);
+  for (const double wrong : {-0.5, 1.5, std::nan("")}) {
+    expectRefused([&] { bench.generator.setSpeed(wrong); }, AnswerCode::kInvalidGoal, "speed_override");
+  }
+  bench.generator.setSpeed(0.25);
+  EXPECT_NE(bench.execute().message.find("at 0.25 of its speed"), std::string::npos);
 }
 
 TEST(TrajectoryGenerator, PointsWithALeadFollowIt) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "screwline/ros/motion_executor.h"
+#include "screwline/ros/stream_reporter.h"
 #include "screwline/ros/trajectory_params.h"
 #include "screwline/ros/trajectory_planner.h"
 #include "screwline/ros/trajectory_streams.h"
@@ -26,7 +27,7 @@ class TrajectoryGenerator {
                       const GeneratorSinks& sinks);
 
   /// Offers the services in a private namespace for as long as this lives.
-  /// And listens to the speed in the public one.
+  /// And listens to the speed in the public one, and to the states of a controlled robot where a topic is given.
   void advertise(ros::NodeHandle& private_node, ros::NodeHandle& node);
 
   MotionExecutor& executor() { return executor_; }
@@ -38,6 +39,8 @@ class TrajectoryGenerator {
   Outcome resume();
   /// Speed at which paths are followed, 0 to 1. @throws InputError outside of it.
   Outcome setSpeed(double speed);
+  /// A state of the controlled robot: compared with what was due at its stamp. @throws InputError (kInvalidRobotState)
+  void track(const sensor_msgs::JointState& measured);
   Outcome listProfiles(const ListProfiles::Request& request, ListProfiles::Response& response) const;
 
  private:
@@ -45,6 +48,8 @@ class TrajectoryGenerator {
   Outcome executePlanned(const PlannedMotion& planned);
   Outcome executeGiven(const trajectory_msgs::JointTrajectory& trajectory);
   Motion motionThrough(const std::vector<SampledPoint>& points, const MotionState& present) const;
+  void stream(const StreamSample& sample);
+  void announceMetrics(const TrajectoryMetrics& metrics);
   std::string paceNote() const;
   std::string announce(const MotionExecutor::Started& started, const trajectory_msgs::JointTrajectory& points);
 
@@ -53,12 +58,17 @@ class TrajectoryGenerator {
   GeneratorSinks sinks_;
   TrajectoryPlanner planner_;
   TrajectoryStreams streams_;
+  StreamReporter reporter_;
+  std::string tracked_topic_;
+  std::mutex metrics_mutex_;
+  TrajectoryMetrics metrics_;  ///< Of the motion that runs.
   mutable std::mutex planned_mutex_;
   std::shared_ptr<const PlannedMotion> planned_;
   std::mutex executing_;  ///< What is announced comes in the order of what is executed.
   MotionExecutor executor_;
   std::vector<ros::ServiceServer> services_;
   ros::Subscriber speed_;
+  ros::Subscriber tracked_;
 };
 
 }  // namespace ros_bridge

@@ -28,14 +28,16 @@ constexpr char kScalingStream[] = "time_scaling";
 constexpr char kPoseStream[] = "tool_pose";
 constexpr char kTwistStream[] = "tool_twist";
 constexpr char kMetricsStream[] = "metrics";
+constexpr char kDiagnosticsStream[] = "diagnostics";
 
 /// Private parameters of trajectory_generator: those of RobotParams, and ~rate, ~ik_timeout, ~threads,
-/// ~initial_position.
+/// ~initial_position, ~tracked_joint_states.
 struct TrajectoryParams {
   RobotParams robot;
   double rate = 100.0;                   ///< [Hz] of the streamed topics, 1 to 1000.
   double ik_timeout = 0.1;               ///< [s] per pose for what inverse kinematics searches numerically.
   int threads = 0;                       ///< That answer requests; 0: as many as cores.
+  std::string tracked_joint_states;      ///< Topic of a controlled robot's states; empty: none.
   std::vector<double> initial_position;  ///< [rad or m] n values, chain order; empty: zero, clamped into the limits.
 };
 

@@ -1,6 +1,8 @@
 #ifndef SCREWLINE_ROS_TRAJECTORY_STREAMS_H
 #define SCREWLINE_ROS_TRAJECTORY_STREAMS_H
 
+#include <diagnostic_msgs/DiagnosticArray.h>
+
 #include <functional>
 #include <memory>
 
@@ -19,6 +21,7 @@ struct GeneratorSinks {
   std::function<void(const TimeScaling&)> scaling;
   std::function<void(const geometry_msgs::PoseStamped&)> pose;
   std::function<void(const geometry_msgs::TwistStamped&)> twist;
+  std::function<void(const diagnostic_msgs::DiagnosticArray&)> diagnostics;
 };
 
 /// Samples as messages. Every field has its size from the start on: publish() does not allocate. From one thread.

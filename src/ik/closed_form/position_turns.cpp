@@ -25,7 +25,7 @@ Placement triangle(double offset, double turned, double radius, double length) {
   place.y = (radius * radius - offset * offset - turned * turned) / (2.0 * offset);
   place.root_along_x = true;
   const double slack = std::min({stretched, folded_in, folded_out});
-  if (slack < -kDoubleRootTolerance * length) return place;
+  if (slack < -kReachTolerance * length) return place;
   place.signs = 1;
   if (slack <= kDoubleRootTolerance * length) return place;
   place.signs = 2;
@@ -88,7 +88,7 @@ RealRoots slideRoots(const PositionGeometry& g, const CarriedPoint& carried, con
   const double radial = std::abs(gap) <= kDoubleRootTolerance * g.length ? 0.0 : gap * (goal.radius + nearest);
   const double square = goal.height * goal.height + radial;
   RealRoots roots;
-  if (square < -kDoubleRootTolerance * goal.scale) return roots;
+  if (square < -kReachTolerance * goal.scale) return roots;
   const double root = std::sqrt(std::max(square, 0.0));
   if (root <= kOnAxis * g.length) {
     roots.add(foot, 0);
