@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "account.h"
 #include "ik_request_check.h"
 #include "mate.h"
 #include "parallel_candidates.h"
@@ -95,7 +96,7 @@ struct InverseKinematics::Implementation {
   void doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
   void conclude(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
-  std::string account(const IkRequest& request, const IkResult& result) const;
+  std::string doubt() const;
 
   SerialChain chain;
   Task task;
@@ -266,39 +267,11 @@ void InverseKinematics::Implementation::admitSeed(const SolutionBuilder& builder
   }
 }
 
-std::string InverseKinematics::Implementation::account(const IkRequest& request, const IkResult& result) const {
-  const std::string excluded = result.outside_limits > 0
-                                   ? ", " + std::to_string(result.outside_limits) + " more break joint limits"
-                                   : std::string();
-  std::string incomplete;
-  if (result.left_out > 0) {
-    incomplete = "; " + std::to_string(result.left_out) + " left out by max_solutions";
-  } else if (!result.complete) {
-    incomplete = plan ? "; the list may be incomplete: a continuum was met whose members had to be searched"
-                 : algebraic || parallel
-                     ? "; the list may be incomplete: the pose is at or near a continuum or a multiple solution"
-                 : redundant ? "; the list may be incomplete: self-motions were found by numerical search or meet"
-                             : "; the list may be incomplete: found by numerical search";
-  }
-  switch (result.status) {
-    case IkStatus::kSolved: {
-      const std::size_t count = result.solutions.size();
-      return std::to_string(count) + (count == 1 ? " solution" : " solutions") + excluded + incomplete;
-    }
-    case IkStatus::kOutsideLimits:
-      if (result.outside_limits > 0) {
-        return "no solution within limits: " + std::to_string(result.outside_limits) + " break joint limits" +
-               incomplete;
-      }
-      return "no solution on branch '" + request.branch + "'" + incomplete;
-    case IkStatus::kUnreachable:
-      return "proved unreachable: no joint values reach the pose" +
-             (request.find_closest ? "; nearest reachable at distance " + std::to_string(result.distance_to_reachable)
-                                   : std::string());
-    case IkStatus::kNotFound:
-      break;
-  }
-  return std::string("no solution found, which proves nothing") + (result.timed_out ? " (time ran out)" : "");
+/// Why a list that is not complete is not.
+std::string InverseKinematics::Implementation::doubt() const {
+  if (plan) return "a continuum was met whose members had to be searched";
+  if (algebraic || parallel) return "the pose is at or near a continuum or a multiple solution";
+  return redundant ? "self-motions were found by numerical search or meet" : "found by numerical search";
 }
 
 void InverseKinematics::Implementation::conclude(const IkRequest& request, const SolutionBuilder& builder,
@@ -395,7 +368,7 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
     result.status = existed || other_branch ? IkStatus::kOutsideLimits
                                             : (result.complete ? IkStatus::kUnreachable : IkStatus::kNotFound);
   }
-  result.message = self.account(request, result);
+  result.message = accountOf(request, result, self.doubt());
   return result;
 }
 

@@ -99,8 +99,7 @@ std::vector<Candidate> candidatesOf(const TaskPlan& plan, const SerialChain& cha
 
 std::vector<std::string> branchNamesOf(const std::vector<BranchPart>& parts) {
   std::vector<std::string> names;
-  for (const BranchPart& part : parts)
-    names.insert(names.end(), {part.positive, part.negative, part.neutral});
+  for (const BranchPart& part : parts) names.insert(names.end(), {part.positive, part.negative, part.neutral});
   return names;
 }
 

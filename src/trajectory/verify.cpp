@@ -70,8 +70,8 @@ std::vector<double> stretchesOf(const JointTrajectory& trajectory) {
   return instants;
 }
 
-/// Along a path the exact extrema are compared (its rates ride on their limits: no enclosure but these is tight enough);
-/// samples tell about when.
+/// Along a path the exact extrema are compared (its rates ride on their limits: no enclosure but these is tight
+/// enough); samples tell about when.
 std::optional<Breach> breachAlongPath(const JointTrajectory& trajectory, int index, int order, const Range& range) {
   const Range reached = enclosure(trajectory, index, order, 0.0, trajectory.duration());
   if (reached.lower >= range.lower && reached.upper <= range.upper) return std::nullopt;

@@ -38,7 +38,7 @@ struct ProfileDraft {
   JointTrajectory trajectory;
   std::vector<double> waypoint_times;
   std::vector<std::string> notes;
-  bool meets_vias = false;  ///< Intermediate waypoints are met at their instants: verified with the rest.
+  bool meets_vias = false;              ///< Intermediate waypoints are met at their instants: verified with the rest.
   std::vector<VectorX> waypoints = {};  ///< Joint values of each where they were solved; empty: the request's.
 };
 
@@ -107,7 +107,7 @@ ProfileDraft buildBsplineInterpolating(const ProfileContext& context);
 ProfileDraft buildDoubleS(const ProfileContext& context);  // time_optimal_profiles.cpp
 ProfileDraft buildTimeOptimal(const ProfileContext& context);
 ProfileDraft buildPathTimeOptimal(const ProfileContext& context);  // path_profiles.cpp
-ProfileDraft buildCartesianLine(const ProfileContext& context);  // cartesian_profiles.cpp
+ProfileDraft buildCartesianLine(const ProfileContext& context);    // cartesian_profiles.cpp
 ProfileDraft buildCartesianArc(const ProfileContext& context);
 
 }  // namespace screwline
