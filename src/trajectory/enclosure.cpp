@@ -81,7 +81,7 @@ Range shifted(const Range& range, double by) {
 /// Along a path the composed polynomials are not kept, but their extrema are.
 Range alongPath(const JointExtrema& extrema, int order) {
   if (order == 0) return extrema.position;
-  const double peak = extrema.peak(order);
+  const double peak = order == 1 ? extrema.velocity : order == 2 ? extrema.acceleration : extrema.jerk;
   return {-peak, peak};
 }
 

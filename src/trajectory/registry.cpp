@@ -96,10 +96,11 @@ std::vector<Profile> jerkLimitedMoves() {
 }
 
 std::vector<Profile> viaMoves() {
-  const ParameterInfo via_tau{"via_tau",
-                              "fraction of the duration at which the via is due, in (0, 1); 0.5 if neither it nor the "
-                              "via's time is given",
-                              false};
+  const ParameterInfo via_tau{
+      "via_tau",
+      "fraction of the duration at which the via is due, 0.01 to 0.99; 0.5 if neither it nor the "
+      "via's time is given",
+      false};
   return {
       {{"via_scalar",
         "degree 6 from rest to rest, one s(tau) for all joints, fitted to the via value of the first joint: the other "

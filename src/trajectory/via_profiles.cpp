@@ -14,16 +14,22 @@ namespace {
 /// A motion for a duration and the fraction of it at which the via is due.
 using ViaBuilder = std::function<JointTrajectory(double duration, double via_tau)>;
 
+/// Nearer to an end the coefficients grow with the third power of the distance, and rounding of them moves the ends.
+constexpr double kLeastTau = 0.01;
+
+void requireTau(double tau, const std::string& what) {
+  if (tau >= kLeastTau && tau <= 1.0 - kLeastTau) return;
+  throw InputError(AnswerCode::kInvalidGoal, what + " is " + number(tau) + ", it must be " + number(kLeastTau) +
+                                                 " to " + number(1.0 - kLeastTau));
+}
+
 std::optional<double> givenTau(const ProfileContext& context) {
   const auto tau = context.parameter("via_tau");
   if (tau && context.waypoints()[1].time > 0.0) {
     throw InputError(AnswerCode::kInvalidGoal,
                      "parameter 'via_tau' and waypoints[1].time are both given: one of them decides");
   }
-  if (tau && !(*tau > 0.0 && *tau < 1.0)) {
-    throw InputError(AnswerCode::kInvalidGoal,
-                     "parameter 'via_tau' is " + number(*tau) + ", it must lie inside (0, 1)");
-  }
+  if (tau) requireTau(*tau, "parameter 'via_tau'");
   return tau;
 }
 
@@ -47,6 +53,7 @@ ProfileDraft fitVia(const ProfileContext& context, const ViaBuilder& build) {
   const std::optional<double> fraction = givenTau(context);
   if (instant > 0.0 && context.duration == 0.0) return searchDuration(context, build);
   const double tau = instant > 0.0 ? instant / context.duration : fraction.value_or(0.5);
+  if (instant > 0.0) requireTau(tau, "waypoints[1].time as a fraction of the duration");
   const double shortest = tightestUse(build(1.0, tau), context.limits).stretch;
   if (context.duration == 0.0 && shortest == 0.0 && !nothingMoves(context.waypoints())) {
     throw InputError(AnswerCode::kInvalidGoal, "duration is 0 and no finite limit bounds profile '" +

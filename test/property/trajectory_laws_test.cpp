@@ -56,7 +56,7 @@ void expectExtremaOf(const JointTrajectory& trajectory, const std::string& what)
 }
 
 TEST(TrajectoryLaws, ExactExtremaBoundDenseSamplesOfEveryProfile) {
-  for (const auto& info : listProfiles()) {
+  for (const auto& info : trajectory_test::jointProfiles()) {
     Random random(51);
     for (int trial = 0; trial < 12; ++trial) {
       const PlanResult result = plan(randomRequest(random, info.name));
@@ -66,7 +66,7 @@ TEST(TrajectoryLaws, ExactExtremaBoundDenseSamplesOfEveryProfile) {
 }
 
 TEST(TrajectoryLaws, DerivativesEqualFiniteDifferences) {
-  for (const auto& info : listProfiles()) {
+  for (const auto& info : trajectory_test::jointProfiles()) {
     Random random(52);
     for (int trial = 0; trial < 8; ++trial) {
       const JointTrajectory motion = plan(randomRequest(random, info.name)).trajectory;
@@ -93,7 +93,7 @@ TEST(TrajectoryLaws, DerivativesEqualFiniteDifferences) {
 }
 
 TEST(TrajectoryLaws, TwiceTheDurationHalvesQuartersAndEighthsTheDerivatives) {
-  for (const auto& info : listProfiles()) {
+  for (const auto& info : trajectory_test::jointProfiles()) {
     if (info.name == "sinusoidal" || info.name.find("trapezoidal") != std::string::npos) continue;
     if (info.name == "time_optimal") continue;  // Its joints have their own shape in each duration.
     Random random(53);
@@ -112,7 +112,7 @@ TEST(TrajectoryLaws, TwiceTheDurationHalvesQuartersAndEighthsTheDerivatives) {
 }
 
 TEST(TrajectoryLaws, ScaledLimitsLengthenTheMotion) {
-  for (const auto& info : listProfiles()) {
+  for (const auto& info : trajectory_test::jointProfiles()) {
     if (info.name == "sinusoidal") continue;
     Random random(54);
     PlanRequest r = randomRequest(random, info.name);
@@ -197,7 +197,7 @@ void spoil(Random& random, PlanRequest& r) {
 
 TEST(Fuzz, PlanAnswersOrRefusesAndNeverLetsALimitOrNanThrough) {
   Random random(71);
-  const auto profiles = listProfiles();
+  const auto profiles = trajectory_test::jointProfiles();
   int planned = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     const auto& info = profiles[static_cast<std::size_t>(random.integer(0, static_cast<int>(profiles.size()) - 1))];

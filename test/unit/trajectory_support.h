@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_TEST_UNIT_TRAJECTORY_SUPPORT_H
 #define SCREWLINE_TEST_UNIT_TRAJECTORY_SUPPORT_H
 
+#include <algorithm>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -63,6 +64,14 @@ inline std::string messageOf(const PlanRequest& request) {
     return error.what();
   }
   return {};
+}
+
+/// The profiles that need no more of the robot than its limits.
+inline std::vector<ProfileSummary> jointProfiles() {
+  std::vector<ProfileSummary> profiles = listProfiles();
+  const auto needs_kinematics = [](const ProfileSummary& profile) { return profile.name.rfind("cartesian", 0) == 0; };
+  profiles.erase(std::remove_if(profiles.begin(), profiles.end(), needs_kinematics), profiles.end());
+  return profiles;
 }
 
 }  // namespace trajectory_test
