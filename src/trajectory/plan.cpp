@@ -77,14 +77,16 @@ MatrixX viaErrors(const ProfileDraft& draft, const std::vector<VectorX>& waypoin
 std::vector<Checkpoint> checkpointsOf(const ProfileContext& context, const ProfileDraft& draft) {
   std::vector<Checkpoint> checkpoints;
   const std::size_t count = draft.waypoints.size();
+  const int continuity = draft.trajectory.continuity();
   for (std::size_t k = 0; count >= 2 && k < count; ++k) {
     const PathPoint& waypoint = context.waypoints()[k];
     const bool end = k == 0 || k + 1 == count;
     if (!end && !draft.meets_vias) continue;
     const double time = k == 0 ? 0.0 : end ? draft.trajectory.duration() : draft.waypoint_times[k];
     checkpoints.emplace_back(time, draft.waypoints[k]);
-    if (draft.meets_vias) checkpoints.back().velocity = waypoint.velocity;
-    if (draft.meets_vias) checkpoints.back().acceleration = waypoint.acceleration;
+    // A zero given at an end where the derivative steps is that of the rest before or after it.
+    if (draft.meets_vias && continuity >= 1) checkpoints.back().velocity = waypoint.velocity;
+    if (draft.meets_vias && continuity >= 2) checkpoints.back().acceleration = waypoint.acceleration;
   }
   return checkpoints;
 }
