@@ -6,7 +6,7 @@ import numpy as np
 from geometry_msgs.msg import Pose
 from node_support import ServedNode
 from screwline.srv import (AnalyzeSingularity, ComputeFK, ComputeFKBatch, ComputeIK, ComputeIKBatch, ComputeJacobian,
-                           ComputeStatics, ComputeVelocity, Describe)
+                           ComputeStatics, ComputeVelocity, Derive, Describe)
 from sensor_msgs.msg import JointState
 
 
@@ -14,6 +14,7 @@ class Server(ServedNode):
     NODE = 'kinematics_server'
     SERVICES = {
         'describe': Describe,
+        'derive': Derive,
         'compute_fk': ComputeFK,
         'compute_fk_batch': ComputeFKBatch,
         'compute_ik': ComputeIK,

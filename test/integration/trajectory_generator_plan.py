@@ -16,7 +16,8 @@ A, B, C = [0.2, -0.4, 0.3], [0.5, 0.3, -0.2], [-0.6, 0.8, 0.1]
 SINUSOID = {'amplitude_0': 0.5, 'omega_0': 2.0, 'phase_0': 0.3, 'offset_1': 0.4, 'amplitude_2': 0.2, 'omega_2': 3.0}
 MEETS_VIAS = {'via_per_joint', 'multipoint_trapezoidal', 'multipoint_cubic', 'multipoint_quintic', 'bspline_interpolating'}
 TAKES_VIA = MEETS_VIAS | {'via_scalar', 'bspline'}
-SCALAR = {'rectangular', 'cubic', 'trapezoidal', 'double_s', 'polynomial_345', 'polynomial_4567', 'cycloidal', 'minimum_jerk', 'via_scalar'}
+SCALAR = {'rectangular', 'cubic', 'trapezoidal', 'double_s', 'polynomial_345', 'polynomial_4567', 'cycloidal', 'minimum_jerk', 'via_scalar',
+          'path_time_optimal'}
 NAMES = ['theta1', 'theta2', 'theta3']
 
 
