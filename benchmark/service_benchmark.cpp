@@ -1,5 +1,6 @@
-// Round trips over persistent connections: the servers' services against an empty one of this process, in turn in the
-// same run. Needs a roscore and a kinematics_server named /kinematics_server; benchmark/run starts both.
+// Round trips over persistent connections: the server's services against an empty one, and against ones that send the
+// same answers without having to find them, in turn in the same run. Needs a roscore and a kinematics_server named
+// /kinematics_server; benchmark/run starts both.
 #include <ros/ros.h>
 #include <screwline/ComputeFK.h>
 #include <screwline/ComputeIK.h>
@@ -31,22 +32,49 @@ double secondsPerCall(ros::ServiceClient& client, Service& service) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kCallsPerRound;
 }
 
-/// Pairs of rounds, empty and asked service in turn, so that a drifting machine does not decide.
+/// Offers the answer of a kinematics_server's service without its mathematics: asked of it once, then repeated.
+template <typename Service>
+ros::ServiceServer offerCanned(ros::NodeHandle& node, const std::string& name, typename Service::Response& stored,
+                               bool& known) {
+  const boost::function<bool(typename Service::Request&, typename Service::Response&)> answer =
+      [name, &stored, &known](typename Service::Request& request, typename Service::Response& response) {
+        if (!known) known = ros::service::call("/kinematics_server/" + name, request, stored);
+        response = stored;
+        return known;
+      };
+  return node.advertiseService("/canned/" + name, answer);
+}
+
+template <typename Service>
+struct Canned {
+  Canned(ros::NodeHandle& node, const std::string& name) : server(offerCanned<Service>(node, name, stored, known)) {}
+  typename Service::Response stored;
+  bool known = false;
+  ros::ServiceServer server;
+};
+
+/// Rounds of three, empty, canned and asked service in turn, so that a drifting machine does not decide.
 template <typename Service>
 void compare(const char* name, ros::ServiceClient& empty, Service service) {
   ros::NodeHandle node;
   ros::ServiceClient asked = node.serviceClient<Service>(std::string("/kinematics_server/") + name, true);
+  ros::ServiceClient canned = node.serviceClient<Service>(std::string("/canned/") + name, true);
   asked.waitForExistence();
+  canned.waitForExistence();
   std_srvs::Empty nothing;
   std::vector<double> ratios;
+  std::vector<double> to_canned;
   std::vector<double> times;
   for (int round = 0; round < kRounds; ++round) {
     const double reference = secondsPerCall(empty, nothing);
+    const double transport = secondsPerCall(canned, service);
     const double time = secondsPerCall(asked, service);
     times.push_back(time * 1e6);
     ratios.push_back(time / reference);
+    to_canned.push_back(time / transport);
   }
-  std::printf("%-20s median %7.1f us, ratio to the empty service %.3f\n", name, median(times), median(ratios));
+  std::printf("%-20s median %7.1f us, ratio to the empty service %.3f, to the same answer without mathematics %.3f\n",
+              name, median(times), median(ratios), median(to_canned));
 }
 
 }  // namespace
@@ -59,6 +87,9 @@ int main(int argc, char** argv) {
     const boost::function<bool(std_srvs::Empty::Request&, std_srvs::Empty::Response&)> answer =
         [](std_srvs::Empty::Request&, std_srvs::Empty::Response&) { return true; };
     const ros::ServiceServer server = node.advertiseService("/empty_service", answer);
+    const Canned<screwline::ComputeFK> fk(node, "compute_fk");
+    const Canned<screwline::ComputeJacobian> jacobian(node, "compute_jacobian");
+    const Canned<screwline::ComputeIK> ik(node, "compute_ik");
     ros::AsyncSpinner spinner(0);
     spinner.start();
     ros::waitForShutdown();

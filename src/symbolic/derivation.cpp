@@ -57,7 +57,7 @@ class Deriver {
     if (wants("determinant") || wants("singularities")) writeDeterminant();
     if (wants("singularities")) writeConditions();
     if (wants("ik")) writeInverse();
-    writeCheck();
+    if (options_.quantities != std::vector<std::string>{"ik"}) writeCheck();
     result_.document = document_.finished();
     result_.worst_deviation = check_.worst();
     return std::move(result_);
