@@ -61,7 +61,8 @@ check_installed_launch() {
   done
 }
 
-# A user's workspace (hidden, as the install space is): the sources linked into src/, `catkin_make install`. Debug, so that assertions are compiled too; without -g, which costs a third of the time.
+# A user's workspace (hidden, as the install space is): the sources linked into src/, `catkin_make install`. Debug, so that assertions
+# are compiled too; without -g, which costs a third of the time.
 check_catkin_make() {
   local status=0
   build_workspace || status=$?
