@@ -87,14 +87,17 @@ MotionExecutor::Turn MotionExecutor::turn(std::optional<double> speed, std::opti
       const Nanoseconds now = clock_.now();
       const std::lock_guard<std::mutex> lock(mutex_);
       const Active* active = heeding();
-      if (active == nullptr) {
+      if (active != nullptr) {
+        if (now <= 0) refuseWithoutTime();
+        followClock(now);
+        instant = std::max(gridInstant(std::max(tick_, firstTickAt(now + notice))), active->start);
+      }
+      // What has ended before it could heed does not.
+      if (active == nullptr || active->end <= instant) {
         speed_ = speed.value_or(speed_);
         paused_ = paused.value_or(paused_);
         return {};
       }
-      if (now <= 0) refuseWithoutTime();
-      followClock(now);
-      instant = std::max(gridInstant(std::max(tick_, firstTickAt(now + notice))), active->start);
       turned = *active;
       rate = paused.value_or(paused_) ? 0.0 : speed.value_or(speed_);
     }

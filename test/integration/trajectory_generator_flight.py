@@ -32,6 +32,7 @@ class Flight(unittest.TestCase):
         cls.generator.shut_down()
 
     def setUp(self):
+        self.generator.resume()
         self.speed.publish(1.0)
         self.generator.planned('polynomial_345', START, START)
         self.generator.executed()
