@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "property/trajectory_optimal_random.h"
+#include "unit/quintic_bridge.h"
 #include "unit/trajectory_support.h"
 
 namespace screwline {
@@ -218,7 +219,7 @@ TEST(TimeOptimalBridge, IsNeverLongerThanTheQuintic) {
     const EndState b = random.state(axis, false);
     const MotionState from{vector({a.position}), vector({a.velocity}), vector({a.acceleration})};
     const MotionState to{vector({b.position}), vector({b.velocity}), vector({b.acceleration})};
-    const double quintic = bridgeTrajectory(from, to, limits).duration();
+    const double quintic = trajectory_test::quinticBridge(from, to, limits).duration();
     const JointTrajectory best = timeOptimalBridge(from, to, limits);
     EXPECT_LE(best.duration(), quintic * (1.0 + 1e-6)) << "seed 92, trial " << trial;
     EXPECT_LE(tightestUse(best, limits).stretch, 1.0 + 1e-8) << "seed 92, trial " << trial;

@@ -70,9 +70,9 @@ void slowDown(StateToStateMotion& motion, double factor);
 void appendPieces(const StateToStateMotion& motion, PiecewisePolynomial& pieces);  ///< After those there are, if any.
 JointTrajectory trajectoryOf(const StateToStateMotion& motion);
 
-/// The time-optimal C2 motion from a moving state to another (or to rest), as bridgeTrajectory() but the shortest there
-/// is. @throws InputError(kLimitsInfeasible) with joint, value and feasible range; (kInvalidGoal) for sizes, values
-/// that are not finite, jerk limits that are not.
+/// The time-optimal C2 motion from a moving state to another (or to rest): a running motion is replaced. @throws
+/// InputError(kLimitsInfeasible) with joint, value and feasible range; (kInvalidGoal) for sizes, values that are not
+/// finite, jerk limits that are not.
 JointTrajectory timeOptimalBridge(const MotionState& from, const MotionState& to, const Limits& limits);
 
 }  // namespace screwline

@@ -23,13 +23,6 @@ struct MotionState {
 /// nor jerk limit.
 JointTrajectory stopTrajectory(const MotionState& state, const Limits& limits);
 
-/// One C2 motion from a moving state to another (a running motion is replaced): a quintic per joint over one common
-/// duration, found by an upward search and proved by exact extrema, or braking to rest, a 3-4-5 move and the reverse of
-/// braking, whichever is shorter. @pre jerk limits are finite, or acceleration limits are infinite too.
-/// @throws InputError(kLimitsInfeasible) naming joint, order, value and bound where the states themselves leave no way
-/// within the limits (a velocity at its limit with acceleration still pushing), (kInvalidGoal) as stopTrajectory.
-JointTrajectory bridgeTrajectory(const MotionState& from, const MotionState& to, const Limits& limits);
-
 }  // namespace screwline
 
 #endif  // SCREWLINE_TRAJECTORY_STOP_H

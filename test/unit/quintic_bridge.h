@@ -1,3 +1,6 @@
+#ifndef SCREWLINE_TEST_UNIT_QUINTIC_BRIDGE_H
+#define SCREWLINE_TEST_UNIT_QUINTIC_BRIDGE_H
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,13 +11,13 @@
 #include "screwline/trajectory/stop.h"
 
 namespace screwline {
-namespace {
+namespace trajectory_test {
 
-bool keeps(const LimitUse& use) {
+inline bool keeps(const LimitUse& use) {
   return use.value <= use.bound * (1.0 + kLimitTolerance);
 }
 
-bool keepsBounds(const JointTrajectory& trajectory, const Limits& limits) {
+inline bool keepsBounds(const JointTrajectory& trajectory, const Limits& limits) {
   for (int j = 0; limits.lower.size() > 0 && j < trajectory.joints(); ++j) {
     const Range range = trajectory.extrema(j).position;
     if (range.lower < limits.lower[j] - kLimitTolerance || range.upper > limits.upper[j] + kLimitTolerance)
@@ -23,7 +26,7 @@ bool keepsBounds(const JointTrajectory& trajectory, const Limits& limits) {
   return true;
 }
 
-JointTrajectory quintic(const MotionState& from, const MotionState& to, double duration) {
+inline JointTrajectory quintic(const MotionState& from, const MotionState& to, double duration) {
   PiecewisePolynomial motion(static_cast<int>(from.position.size()), 5, {0.0, duration}, 2);
   motion.starts_at_rest = from.velocity.isZero(0.0) && from.acceleration.isZero(0.0);
   motion.ends_at_rest = to.velocity.isZero(0.0) && to.acceleration.isZero(0.0);
@@ -36,7 +39,7 @@ JointTrajectory quintic(const MotionState& from, const MotionState& to, double d
 }
 
 /// No motion is quicker than full speed over the longest way, or a full jerk to a changed acceleration.
-double lowestDuration(const MotionState& from, const MotionState& to, const Limits& limits) {
+inline double lowestDuration(const MotionState& from, const MotionState& to, const Limits& limits) {
   double lowest = 0.0;
   for (int j = 0; j < limits.joints(); ++j) {
     lowest = std::max(lowest, std::abs(to.position[j] - from.position[j]) / limits.velocity[j]);
@@ -48,8 +51,8 @@ double lowestDuration(const MotionState& from, const MotionState& to, const Limi
 
 /// The shortest quintic found below `longest`; feasible durations need not form one interval, so the scan is fine and
 /// upward.
-std::optional<JointTrajectory> shortestQuintic(const MotionState& from, const MotionState& to, const Limits& limits,
-                                               double longest) {
+inline std::optional<JointTrajectory> shortestQuintic(const MotionState& from, const MotionState& to,
+                                                      const Limits& limits, double longest) {
   constexpr double kStep = 1.03;
   const auto feasible = [&](double duration) {
     const JointTrajectory trajectory = quintic(from, to, duration);
@@ -68,11 +71,11 @@ std::optional<JointTrajectory> shortestQuintic(const MotionState& from, const Mo
   return quintic(from, to, upper);
 }
 
-MotionState mirroredInTime(const MotionState& state) {
+inline MotionState mirroredInTime(const MotionState& state) {
   return {state.position, -state.velocity, state.acceleration};
 }
 
-JointTrajectory restToRest(const VectorX& start, const VectorX& goal, const Limits& limits) {
+inline JointTrajectory restToRest(const VectorX& start, const VectorX& goal, const Limits& limits) {
   const MotionState from{start, VectorX::Zero(start.size()), VectorX::Zero(start.size())};
   const MotionState to{goal, from.velocity, from.velocity};
   double duration = tightestUse(quintic(from, to, 1.0), limits).stretch;
@@ -85,7 +88,7 @@ JointTrajectory restToRest(const VectorX& start, const VectorX& goal, const Limi
 
 /// Brake, move at rest to where the reversed braking of the goal begins, and follow that backwards: within limits
 /// wherever the two brakings are.
-JointTrajectory byWayOfRest(const MotionState& from, const MotionState& to, const Limits& limits) {
+inline JointTrajectory byWayOfRest(const MotionState& from, const MotionState& to, const Limits& limits) {
   const PiecewisePolynomial braking = *stopTrajectory(from, limits).pieces();
   const PiecewisePolynomial starting = reversed(*stopTrajectory(mirroredInTime(to), limits).pieces());
   TrajectoryPoint rest(limits.joints());
@@ -96,9 +99,10 @@ JointTrajectory byWayOfRest(const MotionState& from, const MotionState& to, cons
   return JointTrajectory::piecewise(concatenate(concatenate(braking, move), starting));
 }
 
-}  // namespace
-
-JointTrajectory bridgeTrajectory(const MotionState& from, const MotionState& to, const Limits& limits) {
+/// One C2 motion from a moving state to another, found otherwise than timeOptimalBridge(): a quintic per joint over one
+/// common duration by an upward search, or braking to rest, a 3-4-5 move and the reverse of braking, whichever is
+/// shorter. @throws InputError(kLimitsInfeasible) where neither keeps the limits.
+inline JointTrajectory quinticBridge(const MotionState& from, const MotionState& to, const Limits& limits) {
   const JointTrajectory detour = byWayOfRest(from, to, limits);
   const bool detour_keeps = keeps(tightestUse(detour, limits)) && keepsBounds(detour, limits);
   // Where braking itself overshoots a limit, a quintic may still exist; it is looked for within ten times that way.
@@ -112,4 +116,7 @@ JointTrajectory bridgeTrajectory(const MotionState& from, const MotionState& to,
   throw InputError(AnswerCode::kLimitsInfeasible, "no motion from the current state within the limits: " + why);
 }
 
+}  // namespace trajectory_test
 }  // namespace screwline
+
+#endif  // SCREWLINE_TEST_UNIT_QUINTIC_BRIDGE_H
