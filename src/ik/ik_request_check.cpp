@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "plan_candidates.h"
 #include "screwline/exception.h"
+#include "screwline/ik/branch_name.h"
 
 namespace screwline {
 namespace {

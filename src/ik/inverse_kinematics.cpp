@@ -10,6 +10,7 @@
 #include "plan_candidates.h"
 #include "screwline/exception.h"
 #include "screwline/ik/algebraic/algebraic_solver.h"
+#include "screwline/ik/branch_name.h"
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/kinematics/singularity.h"
 #include "self_motion_answers.h"
@@ -90,8 +91,9 @@ struct InverseKinematics::Implementation {
             IkResult& result) const;
   bool gather(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   bool isAlmostSingular(const IkAnswer& solution) const;
-  void admit(const IkRequest& request, const IkAnswer& solution, const SolutionBuilder& builder,
-             IkResult& result) const;
+  void addMate(const IkRequest& request, const IkAnswer& solution, const SolutionBuilder& builder,
+               std::vector<IkAnswer>& mates) const;
+  void admit(const IkRequest& request, IkAnswer solution, const SolutionBuilder& builder, IkResult& result) const;
   void dropRepeated(IkResult& result) const;
   void doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
@@ -165,22 +167,26 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, const std
       continue;
     }
     if (chain.size() > task.size()) describeRedundancy(chain, task, *solution);
-    admit(request, *solution, builder, result);
-    if (!isAlmostSingular(*solution)) continue;
-    const std::optional<VectorX> mate = mateOf(chain, task, request.target, solution->position);
-    if (!mate || largestDifference(chain, *mate, solution->position) <= kSameSolution) continue;
-    Candidate other = searched(*mate);
-    other.branch = solution->branch;
-    solution = builder.build(other);
-    if (solution) mates.push_back(*solution);
+    if (isAlmostSingular(*solution)) addMate(request, *solution, builder, mates);
+    admit(request, std::move(*solution), builder, result);
   }
-  for (const IkAnswer& mate : mates) {
+  for (IkAnswer& mate : mates) {
     const bool known = std::any_of(result.solutions.begin(), result.solutions.end(), [&](const IkAnswer& answer) {
       return largestDifference(chain, mate.position, answer.position) <= kSameSolution;
     });
-    if (!known) admit(request, mate, builder, result);
+    if (!known) admit(request, std::move(mate), builder, result);
   }
   return all;
+}
+
+/// The solution that an almost singular one is about to meet.
+void InverseKinematics::Implementation::addMate(const IkRequest& request, const IkAnswer& solution,
+                                                const SolutionBuilder& builder, std::vector<IkAnswer>& mates) const {
+  const std::optional<VectorX> mate = mateOf(chain, task, request.target, solution.position);
+  if (!mate || largestDifference(chain, *mate, solution.position) <= kSameSolution) return;
+  Candidate candidate = searched(*mate);
+  candidate.branch = solution.branch;
+  if (std::optional<IkAnswer> built = builder.build(candidate)) mates.push_back(std::move(*built));
 }
 
 /// By what costs nothing; mateOf() looks closer.
@@ -208,7 +214,7 @@ void InverseKinematics::Implementation::dropRepeated(IkResult& result) const {
 }
 
 /// Into the list, in every turn asked for, unless limits or the branch forbid it.
-void InverseKinematics::Implementation::admit(const IkRequest& request, const IkAnswer& solution,
+void InverseKinematics::Implementation::admit(const IkRequest& request, IkAnswer solution,
                                               const SolutionBuilder& builder, IkResult& result) const {
   if (!solution.within_limits && !request.ignore_limits) {
     ++result.outside_limits;
@@ -216,7 +222,7 @@ void InverseKinematics::Implementation::admit(const IkRequest& request, const Ik
   }
   if (!request.branch.empty() && !matchesBranch(solution.branch, request.branch)) return;
   if (!request.all_turns) {
-    result.solutions.push_back(solution);
+    result.solutions.push_back(std::move(solution));
     return;
   }
   for (const VectorX& q : allTurns(chain, solution.position, request.ignore_limits, kSolutionTolerance)) {
@@ -238,8 +244,9 @@ void InverseKinematics::Implementation::doubtUnreachable(const IkRequest& reques
   options.descent.honour_limits = false;
   for (const VectorX& q : search(chain, task, request.target, {builder.seed()}, options).solutions) {
     result.complete = false;
-    const std::optional<IkAnswer> solution = builder.build(searched(q));
-    if (solution) admit(request, *solution, builder, result);
+    if (std::optional<IkAnswer> solution = builder.build(searched(q))) {
+      admit(request, std::move(*solution), builder, result);
+    }
   }
 }
 
@@ -350,8 +357,8 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
   result.method = self.method;
   bool any = false;
   if (self.redundant) {
-    const std::vector<IkAnswer> answers = selfMotionAnswers(*self.redundant, request, builder, result);
-    for (const IkAnswer& answer : answers) self.admit(request, answer, builder, result);
+    std::vector<IkAnswer> answers = selfMotionAnswers(*self.redundant, request, builder, result);
+    for (IkAnswer& answer : answers) self.admit(request, std::move(answer), builder, result);
     any = !answers.empty();
   }
   // No curve can be followed from what is singular: a search may still meet its solutions.

@@ -10,10 +10,6 @@ namespace {
 
 using Signs = std::array<int, 3>;
 
-VectorX vectorOf(const PlanSolution& solution) {
-  return Eigen::Map<const VectorX>(solution.q.data(), 6);
-}
-
 /// Gathers candidates, and which branches they stand for: a sign that is 0 stands for both.
 class Gathering {
  public:
@@ -43,12 +39,10 @@ class Gathering {
   /// Members with more than one free joint, where no loop describes them.
   void addSheet(const PlanSolution& solution) {
     Candidate candidate;
-    candidate.q = vectorOf(solution);
+    candidate.q = jointsOf(solution, 6);
     candidate.branch = method_.plan.branchName(solution);
     candidate.merged = true;
-    for (int i = 0; i < 6; ++i) {
-      if ((solution.free >> i & 1U) != 0U) candidate.free.push_back(i);
-    }
+    candidate.free = freeJointsOf(solution);
     const ParallelPlan* plan = &method_.plan;
     const Pose target = target_;
     candidate.member = [plan, target, solution](const VectorX& preferred, VectorX& q) {
@@ -56,7 +50,7 @@ class Gathering {
       plan->solve(target, preferred.data(), solutions);
       for (const PlanSolution& one : solutions) {
         if (one.free != solution.free || one.sign != solution.sign) continue;
-        q = vectorOf(one);
+        q = jointsOf(one, 6);
         return true;
       }
       return false;
@@ -100,7 +94,7 @@ bool addContinua(const ParallelMethod& method, const SerialChain& chain, const P
       gathering.addLoop(loop);
       any = true;
     }
-    for (const PlanSolution& point : points) gathering.addIsolated(point, vectorOf(point));
+    for (const PlanSolution& point : points) gathering.addIsolated(point, jointsOf(point, 6));
     any = any || !points.empty();
   }
   for (const PlanSolution& solution : solutions) {
@@ -130,7 +124,7 @@ ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain&
   for (int k = 0; k < solutions.count; ++k) {
     const PlanSolution& solution = solutions.solutions[static_cast<std::size_t>(k)];
     if (solution.free != 0) continue;
-    VectorX q = vectorOf(solution);
+    VectorX q = jointsOf(solution, 6);
     if ((solutions.clamped >> k & 1U) != 0U) {
       const TaskError error = polish(chain, Task(), target, q);
       if (!(error.position <= kSolutionTolerance) || !(error.orientation <= kSolutionTolerance)) {
@@ -146,13 +140,12 @@ ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain&
   if ((solutions.clamped != 0 || eliminate) && method.algebraic) {
     AlgebraicSolutions roots;
     method.algebraic->solve(target, roots);
-    result.eliminated = true;
     result.complete = result.complete || roots.complete;
     for (const std::array<double, 6>& root : roots) {
       PlanSolution solution;
       solution.q = root;
       solution.sign = method.plan.signsAt(target, root.data());
-      if (!gathering.covers(solution.sign)) gathering.addIsolated(solution, vectorOf(solution));
+      if (!gathering.covers(solution.sign)) gathering.addIsolated(solution, jointsOf(solution, 6));
     }
   }
   result.found = gathering.take();

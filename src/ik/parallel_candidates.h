@@ -22,7 +22,6 @@ std::optional<ParallelMethod> parallelMethodFor(const SerialChain& chain, const 
 struct ParallelCandidates {
   std::vector<Candidate> found;
   bool complete = false;
-  bool eliminated = false;  ///< Elimination has had its say.
 };
 
 /// All solutions, each of its own branch, continua as loops. `method` and `chain` must outlive the candidates.

@@ -7,25 +7,6 @@
 namespace screwline {
 namespace {
 
-const char* const kNeutralWords[] = {"straight", "centred", "aligned", "between"};
-
-std::string what(const std::string& part) {
-  return part.substr(0, part.find(' '));
-}
-std::string which(const std::string& part) {
-  return part.substr(part.find(' ') + 1);
-}
-
-bool isNeutral(const std::string& part) {
-  return std::find(std::begin(kNeutralWords), std::end(kNeutralWords), which(part)) != std::end(kNeutralWords);
-}
-
-VectorX toVector(const SerialChain& chain, const PlanSolution& solution) {
-  VectorX q(chain.size());
-  for (int i = 0; i < chain.size(); ++i) q[i] = solution.q[static_cast<std::size_t>(i)];
-  return q;
-}
-
 /// The solution on the same branch of the same continuum, nearest to `preferred`.
 bool memberOf(const ClosedFormPlan& plan, const SerialChain& chain, const Pose& target, const PlanSolution& kin,
               const VectorX& preferred, VectorX& q) {
@@ -34,7 +15,7 @@ bool memberOf(const ClosedFormPlan& plan, const SerialChain& chain, const Pose& 
   double least = std::numeric_limits<double>::infinity();
   for (const PlanSolution& solution : solutions) {
     if (solution.free != kin.free || solution.sign != kin.sign || solution.rank != kin.rank) continue;
-    const VectorX member = toVector(chain, solution);
+    const VectorX member = jointsOf(solution, chain.size());
     const double difference = largestDifference(chain, member, preferred);
     if (difference >= least) continue;
     least = difference;
@@ -78,13 +59,12 @@ std::vector<Candidate> candidatesOf(const TaskPlan& plan, const SerialChain& cha
   PlanSolutions solutions;
   plan.plan.solve(target, seed.data(), solutions);
   std::vector<Candidate> candidates;
+  candidates.reserve(static_cast<std::size_t>(solutions.count));
   for (const PlanSolution& solution : solutions) {
     Candidate candidate;
-    candidate.q = toVector(chain, solution);
+    candidate.q = jointsOf(solution, chain.size());
     candidate.branch = plan.plan.branchName(solution);
-    for (int i = 0; i < chain.size(); ++i) {
-      if ((solution.free >> i & 1U) != 0U) candidate.free.push_back(i);
-    }
+    candidate.free = freeJointsOf(solution);
     candidate.merged = plan.plan.isDouble(solution);
     if (!candidate.free.empty()) {
       const ClosedFormPlan* closed_form = &plan.plan;
@@ -92,7 +72,7 @@ std::vector<Candidate> candidatesOf(const TaskPlan& plan, const SerialChain& cha
         return memberOf(*closed_form, chain, target, solution, preferred, q);
       };
     }
-    candidates.push_back(candidate);
+    candidates.push_back(std::move(candidate));
   }
   return candidates;
 }
@@ -101,31 +81,6 @@ std::vector<std::string> branchNamesOf(const std::vector<BranchPart>& parts) {
   std::vector<std::string> names;
   for (const BranchPart& part : parts) names.insert(names.end(), {part.positive, part.negative, part.neutral});
   return names;
-}
-
-std::vector<std::string> branchPartsOf(const std::string& branch) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  while (begin < branch.size()) {
-    std::size_t end = branch.find(',', begin);
-    if (end == std::string::npos) end = branch.size();
-    const std::size_t first = branch.find_first_not_of(' ', begin);
-    const std::size_t last = branch.find_last_not_of(' ', end - 1);
-    if (first != std::string::npos && first < end) parts.push_back(branch.substr(first, last - first + 1));
-    begin = end + 1;
-  }
-  return parts;
-}
-
-bool matchesBranch(const std::string& branch, const std::string& wish) {
-  const std::vector<std::string> has = branchPartsOf(branch);
-  for (const std::string& wished : branchPartsOf(wish)) {
-    const bool met = std::any_of(has.begin(), has.end(), [&](const std::string& part) {
-      return part == wished || (what(part) == what(wished) && isNeutral(part));
-    });
-    if (!met) return false;
-  }
-  return true;
 }
 
 }  // namespace screwline

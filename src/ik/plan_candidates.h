@@ -27,12 +27,6 @@ std::vector<Candidate> candidatesOf(const TaskPlan& plan, const SerialChain& cha
 /// Every part of a branch name that a plan uses, the neutral ones included.
 std::vector<std::string> branchNamesOf(const std::vector<BranchPart>& parts);
 
-/// Whether a solution's branch has every part that is wished; "elbow straight" is on both elbow branches.
-bool matchesBranch(const std::string& branch, const std::string& wish);
-
-/// "a, b" as {"a", "b"}.
-std::vector<std::string> branchPartsOf(const std::string& branch);
-
 }  // namespace screwline
 
 #endif  // SCREWLINE_SRC_IK_PLAN_CANDIDATES_H

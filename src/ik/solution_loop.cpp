@@ -19,10 +19,6 @@ constexpr double kMoves = 1e-7;       // A joint whose share of the tangent is b
 constexpr double kLimitBand = 1e-9;
 constexpr double kGolden = 0.61803398874989485;
 
-VectorX vectorOf(const PlanSolution& solution) {
-  return Eigen::Map<const VectorX>(solution.q.data(), 6);
-}
-
 /// Solutions with only `joint` free and set to `value`.
 class Sheets {
  public:
@@ -105,7 +101,7 @@ std::vector<std::vector<LoopArc>> chained(Sheets& sheets, const SerialChain& cha
   const auto endOf = [&](const LoopArc& arc, double value) {
     PlanSolution solution;
     sheets.exists(value, arc.sign, solution);
-    return vectorOf(solution);
+    return jointsOf(solution, 6);
   };
   std::vector<std::vector<LoopArc>> loops;
   while (!arcs.empty()) {
@@ -161,11 +157,11 @@ std::vector<SolutionLoop> solutionLoops(const ParallelPlan& plan, const SerialCh
     loops.emplace_back(plan, chain, target, joint, std::move(loop));
   // A fold that was hit exactly is no solution of its own.
   for (PlanSolution& point : single) {
-    const VectorX q = vectorOf(point);
+    const VectorX q = jointsOf(point, 6);
     const bool is_fold = std::any_of(arcs.begin(), arcs.end(), [&](const LoopArc& arc) {
       PlanSolution end;
-      return (sheets.exists(arc.from, arc.sign, end) && largestDifference(chain, vectorOf(end), q) <= kSameEnd) ||
-             (sheets.exists(arc.to, arc.sign, end) && largestDifference(chain, vectorOf(end), q) <= kSameEnd);
+      return (sheets.exists(arc.from, arc.sign, end) && largestDifference(chain, jointsOf(end, 6), q) <= kSameEnd) ||
+             (sheets.exists(arc.to, arc.sign, end) && largestDifference(chain, jointsOf(end, 6), q) <= kSameEnd);
     });
     point.free = 0;
     if (!is_fold) points.push_back(point);
@@ -200,14 +196,14 @@ VectorX SolutionLoop::at(double u, const VectorX& near) const {
     // In a fold itself the branch has its neutral sign.
     double least = std::numeric_limits<double>::infinity();
     for (const PlanSolution& one : sheets.at(value)) {
-      const double distance = largestDifference(*chain_, vectorOf(one), near);
+      const double distance = largestDifference(*chain_, jointsOf(one, 6), near);
       if (distance >= least) continue;
       least = distance;
       solution = one;
     }
     if (!std::isfinite(least)) return near;
   }
-  return nearestTurns(*chain_, vectorOf(solution), near);
+  return nearestTurns(*chain_, jointsOf(solution, 6), near);
 }
 
 Continuum SolutionLoop::describe(const VectorX& seed, bool ignore_limits) const {

@@ -1,6 +1,7 @@
 #include <ros/init.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "screwline/ik/method_summary.h"
 #include "screwline/ros/checks.h"
@@ -17,7 +18,9 @@ Outcome KinematicsServer::derive(const Derive::Request& request, Derive::Respons
   DerivationOptions options;
   options.quantities = request.quantities;
   options.format = documentFormatOf(request.format.empty() ? "markdown" : request.format);
-  options.inverse = summaryOf(*solverFor(linkOrTip("", "tip_link"), robot_.task));
+  const auto& asked = request.quantities;
+  const bool inverse = asked.empty() || std::find(asked.begin(), asked.end(), "ik") != asked.end();
+  if (inverse) options.inverse = summaryOf(*solverFor(linkOrTip("", "tip_link"), robot_.task));
   options.progress.time_limit = params_.derive_timeout;
   options.progress.cancelled = [] { return ros::isShuttingDown(); };
   response.joint_names = chain.jointNames();
@@ -32,8 +35,6 @@ Outcome KinematicsServer::derive(const Derive::Request& request, Derive::Respons
   } catch (const DerivationStopped& stopped) {
     throw InputError(AnswerCode::kTimedOut, stopped.what());
   }
-  const auto& asked = request.quantities;
-  const bool inverse = asked.empty() || std::find(asked.begin(), asked.end(), "ik") != asked.end();
   return {AnswerCode::kSuccess, inverse ? "ik: the method and its branches, no formulas" : ""};
 }
 

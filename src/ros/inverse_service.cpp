@@ -102,6 +102,7 @@ Outcome KinematicsServer::computeIk(const ComputeIK::Request& request, ComputeIK
   const IkRequest question = ikRequest(request, task);
   const IkResult result = solverFor(tip, task)->solve(question);
   response.joint_names = chain.jointNames();
+  response.solutions.reserve(result.solutions.size());
   for (const IkAnswer& solution : result.solutions) response.solutions.push_back(toMessage(chain, solution));
   response.complete = result.complete;
   response.method = result.method;

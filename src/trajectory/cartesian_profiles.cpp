@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "../ik/plan_candidates.h"
 #include "cartesian_motion.h"
 #include "screwline/exception.h"
+#include "screwline/ik/branch_name.h"
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/trajectory/format.h"

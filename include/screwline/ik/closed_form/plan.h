@@ -24,6 +24,20 @@ struct PlanSolution {
   int rank = 0;
 };
 
+/// The first n joint values. Allocates.
+inline VectorX jointsOf(const PlanSolution& solution, int n) {
+  return Eigen::Map<const VectorX>(solution.q.data(), n);
+}
+
+/// Indices of the joints that may take any value. Allocates.
+inline std::vector<int> freeJointsOf(const PlanSolution& solution) {
+  std::vector<int> joints;
+  for (int i = 0; i < kMaxPlanJoints; ++i) {
+    if ((solution.free >> i & 1U) != 0U) joints.push_back(i);
+  }
+  return joints;
+}
+
 struct PlanSolutions {
   std::array<PlanSolution, 8> solutions;
   int count = 0;
