@@ -19,12 +19,6 @@ constexpr double kLookAhead = 1e-3;     ///< Of u, or a hundredth of the part: b
 constexpr double kSameSolution = 1e-5;  ///< [rad, m]
 constexpr double kBand = 1e-9;          ///< [rad, m] within which limits are decided.
 
-double valueAt(const PiecewisePolynomial& curve, int row, double arc) {
-  std::size_t k = 0;
-  while (k + 1 < curve.segments() && arc >= curve.breaks[k + 1]) ++k;
-  return curve.piece(k, row)((arc - curve.breaks[k]) / curve.length(k));
-}
-
 std::string limitReason(const Joint& joint, double limit, const std::string& place) {
   return "joint '" + joint.name + "' reaches its limit " + number(limit) + " at " + place;
 }
@@ -243,7 +237,7 @@ void Follower::turn(FollowedBranch& branch) const {
     branch.limit = leaving.limit;
   }
   if (!std::isfinite(earliest)) return;
-  branch.end_u = std::clamp(valueAt(branch.curve, chain_.size(), earliest), 0.0, path_.length());
+  branch.end_u = std::clamp(branch.curve.valueAt(earliest, chain_.size()), 0.0, path_.length());
   branch.reason = limitReason(chain_.joint(branch.joint), branch.limit, placeOf(path_, branch.end_u));
 }
 
@@ -251,7 +245,7 @@ void Follower::turn(FollowedBranch& branch) const {
 void Follower::name(FollowedBranch& branch) const {
   if (branch.end != BranchEnd::kGoal || branch.branch.empty()) return;
   VectorX goal(chain_.size());
-  for (int i = 0; i < chain_.size(); ++i) goal[i] = valueAt(branch.curve, i, branch.curve.duration());
+  for (int i = 0; i < chain_.size(); ++i) goal[i] = branch.curve.valueAt(branch.curve.duration(), i);
   for (const IkAnswer& answer : solve(path_.length(), goal).solutions) {
     if ((answer.position - goal).cwiseAbs().maxCoeff() > kSameSolution) continue;
     branch.goal_branch = answer.branch;

@@ -73,22 +73,14 @@ void noteSlowing(const ToolPath& path, const FollowedPath& followed, const Retim
 
 FollowedPath::FollowedPath(PiecewisePolynomial curve) : curve_(std::move(curve)), joints_(curve_.joints - 1) {}
 
-std::size_t FollowedPath::pieceAt(double arc) const {
-  const auto after = std::upper_bound(curve_.breaks.begin(), curve_.breaks.end(), arc);
-  const auto piece = std::max<std::ptrdiff_t>(0, after - curve_.breaks.begin() - 1);
-  return std::min(static_cast<std::size_t>(piece), curve_.segments() - 1);
-}
-
 VectorX FollowedPath::at(double arc) const {
-  const std::size_t k = pieceAt(arc);
-  const double x = std::clamp((arc - curve_.breaks[k]) / curve_.length(k), 0.0, 1.0);
   VectorX y(joints_ + 1);
-  for (int i = 0; i <= joints_; ++i) y[i] = curve_.piece(k, i)(x);
+  for (int i = 0; i <= joints_; ++i) y[i] = curve_.valueAt(arc, i);
   return y;
 }
 
 VectorX FollowedPath::rateAt(double arc) const {
-  const std::size_t k = pieceAt(arc);
+  const std::size_t k = curve_.segmentAt(arc);
   const double x = std::clamp((arc - curve_.breaks[k]) / curve_.length(k), 0.0, 1.0);
   VectorX rate(joints_ + 1);
   for (int i = 0; i <= joints_; ++i) rate[i] = curve_.piece(k, i).derivative()(x) / curve_.length(k);
@@ -100,7 +92,7 @@ double FollowedPath::arcAt(double u) const {
   double high = length();
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);
-    (at(middle)[joints_] < u ? low : high) = middle;
+    (curve_.valueAt(middle, joints_) < u ? low : high) = middle;
   }
   return u <= 0.0 ? 0.0 : high;
 }
@@ -177,6 +169,17 @@ JointPath FollowedPath::byU(double tolerance) const {
   return JointPath(std::move(path));
 }
 
+double tauAt(const TimeLaw& law, double s) {
+  if (s <= 0.0) return 0.0;
+  double low = 0.0;
+  double high = 1.0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (law.at(middle).s < s ? low : high) = middle;
+  }
+  return high;
+}
+
 TimedPath timeOptimally(const ProfileContext& context, const ToolPath& path, const FollowedPath& followed,
                         const std::vector<PassedSingularity>& singularities) {
   Limits limits = context.limits;
@@ -198,14 +201,7 @@ TimedPath timeOptimally(const ProfileContext& context, const ToolPath& path, con
   const double duration = context.duration > 0.0 ? std::max(context.duration, shortest) : shortest;
   if (duration != timed.duration) result.trajectory = JointTrajectory::alongPath(joints, timed.law, duration);
   for (const double u : path.waypoints()) {
-    const double share = followed.arcAt(u) / followed.length();
-    double low = 0.0;
-    double high = 1.0;
-    for (int k = 0; k < 60 && share > 0.0; ++k) {
-      const double middle = 0.5 * (low + high);
-      (timed.law.at(middle).s < share ? low : high) = middle;
-    }
-    result.waypoint_times.push_back(share > 0.0 ? high * duration : 0.0);
+    result.waypoint_times.push_back(duration * tauAt(timed.law, followed.arcAt(u) / followed.length()));
   }
   result.waypoint_times.back() = duration;
   noteSlowing(path, followed, timed, singularities, result.notes);

@@ -33,7 +33,6 @@ class FollowedPath {
     VectorX first;
     VectorX second;
   };
-  std::size_t pieceAt(double arc) const;
   Knot knotAt(std::size_t piece, double x) const;
 
   PiecewisePolynomial curve_;
@@ -46,6 +45,9 @@ struct TimedPath {
   std::vector<double> waypoint_times;
   std::vector<std::string> notes;
 };
+
+/// Where a law first reaches s, by bisection: 0 for s = 0.
+double tauAt(const TimeLaw& law, double s);
 
 /// The fastest motion within velocity and acceleration limits (and tool_speed), or longer if the request has a
 /// duration. Notes say where singularities slow it down.

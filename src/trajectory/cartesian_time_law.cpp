@@ -93,13 +93,7 @@ TimedPath timeByLaw(const ProfileContext& context, const ToolPath& path, const F
   const LimitUse use = tightestUse(result.trajectory, context.limits);
   if (use.value > use.bound * (1.0 + kLimitTolerance)) refuseDuration(context, use, shortest);
   for (const double u : path.waypoints()) {
-    double low = 0.0;
-    double high = u > 0.0 ? 1.0 : 0.0;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = 0.5 * (low + high);
-      (law.at(middle).s < u / path.length() ? low : high) = middle;
-    }
-    result.waypoint_times.push_back(high * duration);
+    result.waypoint_times.push_back(duration * tauAt(law, u / path.length()));
   }
   result.waypoint_times.back() = duration;
   return result;

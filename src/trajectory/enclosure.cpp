@@ -51,9 +51,8 @@ Range sinusoidOver(double amplitude, double omega, double phase, int order, doub
 /// Of the pieces that have more than an end in common with [from, to]; where `from` is `to`, of the one that holds it.
 Range piecesOver(const PiecewisePolynomial& pieces, int joint, int order, double from, double to) {
   const auto& breaks = pieces.breaks;
-  const auto after = std::upper_bound(breaks.begin() + 1, breaks.end() - 1, from);
   std::optional<Range> range;
-  for (std::size_t k = static_cast<std::size_t>(after - breaks.begin()) - 1; k < pieces.segments(); ++k) {
+  for (std::size_t k = pieces.segmentAt(from); k < pieces.segments(); ++k) {
     if (range && breaks[k] >= to) break;
     const double length = pieces.length(k);
     if (length <= kNoTime && order > 0) continue;

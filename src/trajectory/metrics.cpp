@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "screwline/spatial/golden_section.h"
+
 namespace screwline {
 namespace {
 
@@ -72,27 +74,7 @@ Integral integrate(const std::function<double(double)>& f, const std::vector<dou
 
 /// Largest value on [from, to], where it has one maximum.
 double goldenMaximum(const std::function<double(double)>& f, double from, double to) {
-  constexpr double kGolden = 0.6180339887498949;
-  double a = to - kGolden * (to - from);
-  double b = from + kGolden * (to - from);
-  double at_a = f(a);
-  double at_b = f(b);
-  for (int i = 0; i < 45; ++i) {
-    if (at_a > at_b) {
-      to = b;
-      b = a;
-      at_b = at_a;
-      a = to - kGolden * (to - from);
-      at_a = f(a);
-    } else {
-      from = a;
-      a = b;
-      at_a = at_b;
-      b = from + kGolden * (to - from);
-      at_b = f(b);
-    }
-  }
-  return std::max(at_a, at_b);
+  return f(goldenMinimum([&f](double t) { return -f(t); }, from, to, 45));
 }
 
 double maximum(const std::function<double(double)>& f, const std::vector<double>& grid) {

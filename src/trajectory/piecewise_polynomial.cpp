@@ -56,6 +56,17 @@ void PiecewisePolynomial::setPiece(std::size_t segment, int joint, const Polynom
   for (int k = 0; k <= degree; ++k) at(segment, k, joint) = polynomial.c[static_cast<std::size_t>(k)];
 }
 
+std::size_t PiecewisePolynomial::segmentAt(double t) const {
+  const auto after = std::upper_bound(breaks.begin() + 1, breaks.end() - 1, t);
+  return static_cast<std::size_t>(after - breaks.begin()) - 1;
+}
+
+double PiecewisePolynomial::valueAt(double t, int joint) const {
+  const std::size_t k = segmentAt(t);
+  const double x = length(k) > 0.0 ? std::min(std::max((t - breaks[k]) / length(k), 0.0), 1.0) : 0.0;
+  return piece(k, joint)(x);
+}
+
 double PiecewisePolynomial::atEnd(std::size_t segment, int joint, int order, bool upper_end) const {
   Polynomial polynomial = piece(segment, joint);
   for (int i = 0; i < order; ++i) polynomial = polynomial.derivative();

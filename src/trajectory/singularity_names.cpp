@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "screwline/kinematics/singularity.h"
+#include "screwline/spatial/golden_section.h"
 #include "screwline/trajectory/branch_following.h"
 
 namespace screwline {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kNear = 0.05;  ///< Closeness that is worth a word.
 constexpr double kMet = 1e-6;
+constexpr int kGoldenSteps = 50;
 
 /// Least over greatest singular value of the task Jacobian, lengths in characteristic lengths.
 class Closeness {
@@ -20,10 +22,7 @@ class Closeness {
       : chain_(chain), task_(task), curve_(curve), J_(6, chain.size()), q_(chain.size()) {}
 
   const VectorX& configuration(double arc) {
-    std::size_t k = 0;
-    while (k + 1 < curve_.segments() && arc >= curve_.breaks[k + 1]) ++k;
-    const double x = (arc - curve_.breaks[k]) / curve_.length(k);
-    for (int i = 0; i < chain_.size(); ++i) q_[i] = curve_.piece(k, i)(x);
+    for (int i = 0; i < chain_.size(); ++i) q_[i] = curve_.valueAt(arc, i);
     return q_;
   }
 
@@ -46,31 +45,6 @@ class Closeness {
   VectorX q_;
 };
 
-/// The least value in [from, to], where there is one minimum: golden section.
-double minimum(Closeness& closeness, double from, double to) {
-  constexpr double kGolden = 0.6180339887498949;
-  double a = to - kGolden * (to - from);
-  double b = from + kGolden * (to - from);
-  double at_a = closeness(a);
-  double at_b = closeness(b);
-  for (int i = 0; i < 50; ++i) {
-    if (at_a < at_b) {
-      to = b;
-      b = a;
-      at_b = at_a;
-      a = to - kGolden * (to - from);
-      at_a = closeness(a);
-    } else {
-      from = a;
-      a = b;
-      at_a = at_b;
-      b = from + kGolden * (to - from);
-      at_b = closeness(b);
-    }
-  }
-  return 0.5 * (from + to);
-}
-
 }  // namespace
 
 std::string SingularityNames::nearest(const VectorX& q) const {
@@ -85,16 +59,6 @@ std::string SingularityNames::nearest(const VectorX& q) const {
   }
   return best != nullptr ? best->name + " (" + best->expression + ")" : "rank";
 }
-
-namespace {
-
-double uAt(const PiecewisePolynomial& curve, double arc) {
-  std::size_t k = 0;
-  while (k + 1 < curve.segments() && arc >= curve.breaks[k + 1]) ++k;
-  return curve.piece(k, curve.joints - 1)((arc - curve.breaks[k]) / curve.length(k));
-}
-
-}  // namespace
 
 std::vector<PassedSingularity> singularitiesAlong(const SerialChain& chain, const Task& task,
                                                   const PiecewisePolynomial& curve) {
@@ -122,18 +86,19 @@ std::vector<PassedSingularity> singularitiesAlong(const SerialChain& chain, cons
     const std::size_t least =
         static_cast<std::size_t>(std::min_element(first, values.begin() + static_cast<long>(end)) - values.begin());
     PassedSingularity place;
-    place.arc = minimum(closeness, arcs[least > 0 ? least - 1 : 0], arcs[std::min(least + 1, arcs.size() - 1)]);
+    place.arc = goldenMinimum(closeness, arcs[least > 0 ? least - 1 : 0], arcs[std::min(least + 1, arcs.size() - 1)],
+                              kGoldenSteps);
     place.closeness = closeness(place.arc);
     place.met = place.closeness < kMet;
     place.name = names.nearest(closeness.configuration(place.arc));
-    place.u = place.until_u = uAt(curve, place.arc);
+    place.u = place.until_u = curve.valueAt(place.arc, chain.size());
     std::size_t from = least;
     std::size_t to = least;
     while (from > k && values[from - 1] < kMet) --from;
     while (to + 1 < end && values[to + 1] < kMet) ++to;
     if (place.met && to > from) {
-      place.u = uAt(curve, arcs[from]);
-      place.until_u = uAt(curve, arcs[to]);
+      place.u = curve.valueAt(arcs[from], chain.size());
+      place.until_u = curve.valueAt(arcs[to], chain.size());
     }
     if (place.closeness <= kNear) passed.push_back(place);
     k = end;

@@ -56,6 +56,11 @@ struct PiecewisePolynomial {
   Polynomial piece(std::size_t segment, int joint) const;
   void setPiece(std::size_t segment, int joint, const Polynomial& polynomial);
 
+  /// The segment that holds t, at a breakpoint the later one; outside the range the nearer end's. @pre segments() > 0.
+  std::size_t segmentAt(double t) const;
+  /// Of one joint at t, which is taken to the nearer end outside the range. @pre segments() > 0.
+  double valueAt(double t, int joint) const;
+
   /// Derivative of the given order (0..3) of one joint at an end of a segment, from inside it, with respect to time.
   double atEnd(std::size_t segment, int joint, int order, bool upper_end) const;
 
