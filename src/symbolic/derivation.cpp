@@ -65,10 +65,10 @@ class Deriver {
 
  private:
   static void requireKnown(const std::string& quantity) {
-    if (std::find(kQuantities.begin(), kQuantities.end(), quantity) == kQuantities.end())
-      throw InputError(AnswerCode::kInvalidGoal, "quantities: '" + quantity +
-                                                     "' is unknown; known are fk, jacobian, propagation, determinant, "
-                                                     "singularities");
+    if (std::find(kQuantities.begin(), kQuantities.end(), quantity) != kQuantities.end()) return;
+    std::string known;
+    for (const char* name : kQuantities) known += (known.empty() ? "" : ", ") + std::string(name);
+    throw InputError(AnswerCode::kInvalidGoal, "quantities: '" + quantity + "' is unknown; known are " + known);
   }
   bool wants(const std::string& quantity) const {
     return options_.quantities.empty() ||
