@@ -4,10 +4,14 @@
 # Hidden: roslaunch looks for files in all folders of a package but hidden ones, and would find each of them twice.
 INSTALL=$BUILD/.install
 
+# What one build folder has compiled, another one need not. The cache is the build folder's own, whatever the user's settings are.
+export CCACHE_DIR=$BUILD/.ccache CCACHE_CONFIGPATH=$BUILD/.ccache/ccache.conf
+
 # configure DIRECTORY OPTION...
 configure() {
   local directory=$1
   shift
+  command -v ccache >/dev/null && set -- -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
   cmake -S "$ROOT" -B "$directory" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_INSTALL_PREFIX="$INSTALL" "$@"
 }
 

@@ -24,10 +24,10 @@ check_shell_syntax() {
   done
 }
 
-# The core alone builds without catkin, and reads no header of ROS on the way.
+# The core alone builds without catkin, and reads no header of ROS on the way. With the options of the main build: most objects are in the cache.
 check_core_without_ros() {
   local directory=$BUILD/core_only
-  configure "$directory" -DSCREWLINE_CORE_ONLY=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 || return 1
+  configure "$directory" -DSCREWLINE_CORE_ONLY=ON -DSCREWLINE_WERROR=ON -DCMAKE_BUILD_TYPE=Release || return 1
   build "$directory" all || return 1
   local read
   read=$(find "$directory" \( -name '*.d' -o -name depend.make \) -exec cat {} + | tr ' ' '\n' |

@@ -4,7 +4,7 @@
 
 # To build and to run the demo.
 BUILD_PACKAGES=(
-  g++ make cmake catkin python3-catkin-pkg python3-setuptools ros-environment ros-message-generation ros-message-runtime
+  g++ make cmake ccache catkin python3-catkin-pkg python3-setuptools ros-environment ros-message-generation ros-message-runtime
   ros-std-msgs ros-geometry-msgs ros-sensor-msgs ros-trajectory-msgs ros-visualization-msgs ros-diagnostic-msgs ros-tf2-msgs ros-std-srvs
   libstd-msgs-dev libgeometry-msgs-dev libsensor-msgs-dev libtrajectory-msgs-dev libvisualization-msgs-dev libdiagnostic-msgs-dev
   libtf2-msgs-dev libstd-srvs-dev

@@ -43,6 +43,9 @@ VectorX nearestTurns(const SerialChain& chain, VectorX q, const VectorX& referen
 /// Largest joint difference, revolute ones modulo full turns.
 double largestDifference(const SerialChain& chain, const VectorX& a, const VectorX& b);
 
+/// Whether no joint differs by more than kSameSolution, revolute ones modulo full turns.
+bool isSameConfiguration(const SerialChain& chain, const VectorX& a, const VectorX& b);
+
 }  // namespace screwline
 
 #endif  // SCREWLINE_SRC_IK_CANDIDATE_H

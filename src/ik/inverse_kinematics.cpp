@@ -60,7 +60,10 @@ void describeRedundancy(const SerialChain& chain, const Task& task, IkAnswer& so
 
 struct InverseKinematics::Implementation {
   Implementation(const SerialChain& chain_in, const Task& task_in)
-      : chain(chain_in), task(task_in), plan(planFor(chain, task)) {
+      : chain(chain_in),
+        task(task_in),
+        plan(planFor(chain, task)),
+        almost_singular(kAlmostSingular * std::pow(chain.characteristicLength(), task.translationCount())) {
     if (plan) {
       method = "closed form: " + plan->plan.method();
       if (plan->task.size() < task.size()) method += "; the other rows of the task are checked";
@@ -87,7 +90,7 @@ struct InverseKinematics::Implementation {
                                     IkResult& result) const;
   std::vector<Candidate> withSearched(const IkRequest& request, const SolutionBuilder& builder,
                                       std::vector<Candidate> found, IkResult& result) const;
-  bool keep(const IkRequest& request, const std::vector<Candidate>& candidates, const SolutionBuilder& builder,
+  bool keep(const IkRequest& request, std::vector<Candidate> candidates, const SolutionBuilder& builder,
             IkResult& result) const;
   bool gather(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   bool isAlmostSingular(const IkAnswer& solution) const;
@@ -108,6 +111,7 @@ struct InverseKinematics::Implementation {
   std::optional<AlgebraicSolver> algebraic;
   std::optional<SelfMotionSolver> redundant;
   std::string method;
+  double almost_singular;  ///< Manipulability below which solutions may meet.
 };
 
 std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkRequest& request,
@@ -155,12 +159,12 @@ std::vector<Candidate> InverseKinematics::Implementation::withSearched(const IkR
 }
 
 /// False where a candidate is none that should be one.
-bool InverseKinematics::Implementation::keep(const IkRequest& request, const std::vector<Candidate>& candidates,
+bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vector<Candidate> candidates,
                                              const SolutionBuilder& builder, IkResult& result) const {
   bool all = true;
   std::vector<IkAnswer> mates;
-  for (const Candidate& candidate : candidates) {
-    std::optional<IkAnswer> solution = builder.build(candidate);
+  for (Candidate& candidate : candidates) {
+    std::optional<IkAnswer> solution = builder.build(std::move(candidate));
     if (!solution) {
       // Rows that the plan does not know reject solutions rightly; its own rows never should.
       if (algebraic || parallel || (plan && plan->task.size() == task.size())) all = false;
@@ -172,7 +176,7 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, const std
   }
   for (IkAnswer& mate : mates) {
     const bool known = std::any_of(result.solutions.begin(), result.solutions.end(), [&](const IkAnswer& answer) {
-      return largestDifference(chain, mate.position, answer.position) <= kSameSolution;
+      return isSameConfiguration(chain, mate.position, answer.position);
     });
     if (!known) admit(request, std::move(mate), builder, result);
   }
@@ -183,17 +187,16 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, const std
 void InverseKinematics::Implementation::addMate(const IkRequest& request, const IkAnswer& solution,
                                                 const SolutionBuilder& builder, std::vector<IkAnswer>& mates) const {
   const std::optional<VectorX> mate = mateOf(chain, task, request.target, solution.position);
-  if (!mate || largestDifference(chain, *mate, solution.position) <= kSameSolution) return;
+  if (!mate || isSameConfiguration(chain, *mate, solution.position)) return;
   Candidate candidate = searched(*mate);
   candidate.branch = solution.branch;
-  if (std::optional<IkAnswer> built = builder.build(candidate)) mates.push_back(std::move(*built));
+  if (std::optional<IkAnswer> built = builder.build(std::move(candidate))) mates.push_back(std::move(*built));
 }
 
 /// By what costs nothing; mateOf() looks closer.
 bool InverseKinematics::Implementation::isAlmostSingular(const IkAnswer& solution) const {
-  const double scale = std::pow(chain.characteristicLength(), task.translationCount());
   return (plan || algebraic) && chain.size() == task.size() && solution.self_motion.rows() == 0 &&
-         solution.manipulability <= kAlmostSingular * scale;
+         solution.manipulability <= almost_singular;
 }
 
 /// Refinement has brought candidates together that were apart, and pieces of one curve may have the same nearest
@@ -337,21 +340,24 @@ std::vector<std::string> InverseKinematics::branches() const {
 bool InverseKinematics::Implementation::gather(const IkRequest& request, const SolutionBuilder& builder,
                                                IkResult& result) const {
   std::vector<Candidate> found = joinEqual(chain, candidates(request, builder, false, result));
-  bool all = keep(request, found, builder, result);
+  bool any = !found.empty();
+  bool all = keep(request, std::move(found), builder, result);
   if (!all && parallel) {
     result.solutions.clear();
     result.outside_limits = 0;
     found = joinEqual(chain, candidates(request, builder, true, result));
-    all = keep(request, found, builder, result) || result.complete;
+    any = !found.empty();
+    all = keep(request, std::move(found), builder, result) || result.complete;
   }
   if (!all) result.complete = false;
-  return !found.empty();
+  return any;
 }
 
 IkResult InverseKinematics::solve(const IkRequest& request) const {
   const Implementation& self = *implementation_;
   const int parameter = self.redundant ? self.redundant->parameterJoint() : -1;
-  checkRequest(self.chain, self.task, request, branches(), parameter);
+  checkRequest(self.chain, self.task, request, request.branch.empty() ? std::vector<std::string>() : branches(),
+               parameter);
   const SolutionBuilder builder(self.chain, self.task, request);
   IkResult result;
   result.method = self.method;

@@ -28,9 +28,9 @@ SolutionBuilder::SolutionBuilder(const SerialChain& chain, const Task& task, con
       request_(request),
       seed_(request.seed.size() > 0 ? request.seed : chain.clamped(VectorX::Zero(chain.size()))) {}
 
-std::optional<IkAnswer> SolutionBuilder::build(const Candidate& candidate) const {
+std::optional<IkAnswer> SolutionBuilder::build(Candidate candidate) const {
   IkAnswer solution;
-  solution.branch = candidate.branch;
+  solution.branch = std::move(candidate.branch);
   solution.position = candidate.q;
   if (!candidate.free.empty()) {
     Continuum continuum = candidate.describe ? candidate.describe(seed_, request_.ignore_limits)
@@ -99,7 +99,7 @@ std::vector<Candidate> joinEqual(const SerialChain& chain, std::vector<Candidate
   for (Candidate& candidate : candidates) {
     const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const Candidate& other) {
       return other.free == candidate.free && !other.describe && !candidate.describe &&
-             largestDifference(chain, other.q, candidate.q) <= kSameSolution;
+             isSameConfiguration(chain, other.q, candidate.q);
     });
     if (same == distinct.end()) {
       distinct.push_back(std::move(candidate));

@@ -19,7 +19,7 @@ class SolutionBuilder {
 
   /// Refines, verifies by forward kinematics, chooses turns, describes continua. Empty where the candidate is no
   /// solution to 1e-9.
-  std::optional<IkAnswer> build(const Candidate& candidate) const;
+  std::optional<IkAnswer> build(Candidate candidate) const;
 
   /// The same numbers for a configuration that need not be a solution.
   IkAnswer describe(const VectorX& q) const;

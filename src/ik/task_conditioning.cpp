@@ -11,8 +11,10 @@
 namespace screwline {
 namespace {
 
-/// Of the largest eigenvalue: squaring costs half the digits of what is smaller.
+/// Of the eigenvalues' sum: squaring costs half the digits of what is smaller.
 constexpr double kClearShare = 1e-6;
+constexpr double kConverged = 1e-14;  ///< Of the eigenvalue.
+constexpr int kMaxSteps = 30;
 
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
@@ -25,17 +27,64 @@ TaskConditioning bySingularValues(const MatrixX& J, double noise) {
   return result;
 }
 
-/// From G = J J^T or J^T J, whichever is smaller; manipulability is left to the caller. Empty where squaring would cost
-/// too many digits.
+/// The least eigenvalue of a symmetric tridiagonal matrix whose eigenvalues are positive, and its determinant.
+struct LeastEigenvalue {
+  double value = 0.0;
+  double determinant = 0.0;
+};
+
+/// The characteristic polynomial at x with two derivatives, by its three-term recurrence.
+template <typename Diagonal, typename OffDiagonal>
+Eigen::Array3d characteristic(const Diagonal& d, const OffDiagonal& e, double x) {
+  Eigen::Array3d before(0.0, 0.0, 0.0);
+  Eigen::Array3d p(1.0, 0.0, 0.0);
+  for (Eigen::Index k = 0; k < d.size(); ++k) {
+    const double left = d[k] - x;
+    const double coupling = k == 0 ? 0.0 : e[k - 1] * e[k - 1];
+    const Eigen::Array3d next(left * p[0] - coupling * before[0], left * p[1] - p[0] - coupling * before[1],
+                              left * p[2] - 2.0 * p[1] - coupling * before[2]);
+    before = p;
+    p = next;
+  }
+  return p;
+}
+
+/// Laguerre's steps from zero: to the left of the least root of a polynomial with real roots they grow towards it, and
+/// converge with the third power (Wilkinson, The Algebraic Eigenvalue Problem, ch. 7).
+template <typename Diagonal, typename OffDiagonal>
+LeastEigenvalue leastEigenvalue(const Diagonal& d, const OffDiagonal& e) {
+  const auto n = static_cast<double>(d.size());
+  LeastEigenvalue least;
+  Eigen::Array3d p = characteristic(d, e, 0.0);
+  least.determinant = p[0];
+  for (int k = 0; k < kMaxSteps && p[0] > 0.0; ++k) {
+    const double slope = p[1] / p[0];
+    const double bend = slope * slope - p[2] / p[0];
+    const double step = n / (std::sqrt(std::max(0.0, (n - 1.0) * (n * bend - slope * slope))) - slope);
+    if (!(step > kConverged * least.value)) break;
+    least.value += step;
+    p = characteristic(d, e, least.value);
+  }
+  return least;
+}
+
+/// From G = J J^T or J^T J, whichever is smaller; manipulability is sqrt(det G). Empty where squaring would cost too
+/// many digits.
 template <typename Matrix>
-std::optional<TaskConditioning> byEigenvalues(const Matrix& G, double noise) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(G, Eigen::EigenvaluesOnly);
-  const double least = eigen.eigenvalues()[0];
-  const double most = eigen.eigenvalues()[G.rows() - 1];
-  if (!(least > kClearShare * most) || !(std::sqrt(least) > noise)) return std::nullopt;
+std::optional<TaskConditioning> byEigenvalues(Matrix G, double noise) {
+  const double sum = G.trace();  // Of the eigenvalues: no less than the largest.
+  if (!(sum > 0.0)) return std::nullopt;
+  G /= sum;
+  LeastEigenvalue least{G(0, 0), G(0, 0)};
+  if (G.rows() > 1) {
+    const Eigen::Tridiagonalization<Matrix> T(G);
+    least = leastEigenvalue(T.diagonal(), T.subDiagonal());
+  }
+  const double smallest = std::sqrt(sum * std::max(0.0, least.value));
+  if (!(least.value > kClearShare) || !(smallest > noise)) return std::nullopt;
   TaskConditioning result;
-  result.smallest = std::max(std::sqrt(least), 1e-12);
-  result.manipulability = std::sqrt(eigen.eigenvalues().prod());
+  result.smallest = std::max(smallest, 1e-12);
+  result.manipulability = std::sqrt(least.determinant * std::pow(sum, static_cast<double>(G.rows())));
   result.full_rank = true;
   return result;
 }

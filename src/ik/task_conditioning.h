@@ -13,7 +13,7 @@ struct TaskConditioning {
 };
 
 /// Of the task's rows of J (6 x n). From the eigenvalues of J J^T (or J^T J), to 1e-10; by singular values where their
-/// ratio is beyond 1e3, to rounding. About 1 us; allocates only there.
+/// ratio is beyond 1e3, to rounding. Well below 1 us; allocates only there.
 TaskConditioning conditioningOf(const MatrixX& task_jacobian, double noise);
 
 }  // namespace screwline

@@ -17,6 +17,13 @@ std::vector<Pose> linkTransforms(const SerialChain& chain, const ConstVectorRef&
   return links;
 }
 
+/// The first link that a joint moves: of its own axis, or of one that mimics it.
+std::size_t firstMovedBy(const SerialChain& chain, int joint) {
+  std::size_t i = 0;
+  while (chain.axes()[i].source != joint) ++i;
+  return i;
+}
+
 /// R_BT by the table.
 Matrix3 tipRotation(const SerialChain& chain, const std::vector<Pose>& links) {
   Matrix3 R = chain.modifiedDh().base_transform.R;
@@ -24,11 +31,12 @@ Matrix3 tipRotation(const SerialChain& chain, const std::vector<Pose>& links) {
   return R * chain.modifiedDh().tool_transform.R;
 }
 
+/// Links before `first` are at rest: they are left out of the result.
 void outward(const SerialChain& chain, const std::vector<Pose>& links, const ConstVectorRef& velocity,
-             std::vector<LinkVelocity>& result) {
+             std::size_t first, std::vector<LinkVelocity>& result) {
   result.clear();
   LinkVelocity parent;
-  for (std::size_t i = 0; i < links.size(); ++i) {
+  for (std::size_t i = first; i < links.size(); ++i) {
     const Axis& axis = chain.axes()[i];
     const Pose& X = links[i];
     const double rate = axis.multiplier * velocity[axis.source];
@@ -62,7 +70,7 @@ void inward(const SerialChain& chain, const std::vector<Pose>& links, const Vect
 std::vector<LinkVelocity> propagateVelocity(const SerialChain& chain, const ConstVectorRef& q,
                                             const ConstVectorRef& velocity) {
   std::vector<LinkVelocity> result;
-  outward(chain, linkTransforms(chain, q), velocity, result);
+  outward(chain, linkTransforms(chain, q), velocity, 0, result);
   return result;
 }
 
@@ -97,7 +105,7 @@ Matrix6X velocityPropagationJacobian(const SerialChain& chain, const ConstVector
   velocities.reserve(links.size());
   for (int i = 0; i < chain.size(); ++i) {
     velocity[i] = 1.0;
-    outward(chain, links, velocity, velocities);
+    outward(chain, links, velocity, firstMovedBy(chain, i), velocities);
     const Vector6 V_T = tipTwist(chain, velocities.back());
     J.col(i) << R_BT * V_T.head<3>(), R_BT * V_T.tail<3>();
     velocity[i] = 0.0;

@@ -206,7 +206,15 @@ Pose ModifiedDh::link(int i, bool prismatic, double displacement) const {
   const ModifiedDhRow& row = rows[static_cast<std::size_t>(i - 1)];
   const double turn = prismatic ? 0.0 : displacement;
   const double slide = prismatic ? displacement : 0.0;
-  return aboutX(row.a, row.alpha) * aboutZ(row.theta + turn, row.d + slide);
+  const double ca = std::cos(row.alpha);
+  const double sa = std::sin(row.alpha);
+  const double ct = std::cos(row.theta + turn);
+  const double st = std::sin(row.theta + turn);
+  const double d = row.d + slide;
+  Pose X;
+  X.R << ct, -st, 0.0, st * ca, ct * ca, -sa, st * sa, ct * sa, ca;
+  X.p << row.a, -d * sa, d * ca;
+  return X;
 }
 
 ModifiedDh modifiedDhOf(const std::vector<Axis>& axes, const Pose& home) {

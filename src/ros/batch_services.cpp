@@ -19,7 +19,7 @@ constexpr std::size_t kMostNumbers = 100000000;
 /// requireFinite() of a number of a batch; what it is called is put together only where it is refused.
 void requireFiniteAt(const std::vector<double>& numbers, std::size_t index, std::size_t columns,
                      const std::string& field, AnswerCode code) {
-  if (std::abs(numbers[index]) <= kMaxMagnitude) return;
+  if (isServed(numbers[index])) return;
   const std::string row = std::to_string(index / columns);
   requireFinite(numbers[index], field + "[" + std::to_string(index) + "] (row " + row + ")", code);
 }

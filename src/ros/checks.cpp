@@ -1,10 +1,7 @@
 #include "screwline/ros/checks.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
-
-#include "screwline/model/serial_chain.h"
 
 namespace screwline {
 namespace ros_bridge {
@@ -32,7 +29,7 @@ std::string quoted(const std::string& name) {
 }
 
 void requireFinite(double value, const std::string& field, AnswerCode code) {
-  if (std::abs(value) <= kMaxMagnitude) return;
+  if (isServed(value)) return;
   throw InputError(
       code, field + " is " + numberText(value) + ", it must be finite and within +-" + numberText(kMaxMagnitude));
 }

@@ -13,7 +13,7 @@ Vector3 checked(const Vector3& values, const std::string& field, const ReadMask&
   Vector3 result = Vector3::Zero();
   for (int i = 0; i < 3; ++i) {
     if (!read[static_cast<std::size_t>(i)]) continue;
-    requireFinite(values[i], field + kNames[i]);
+    if (!isServed(values[i])) requireFinite(values[i], field + kNames[i]);
     result[i] = values[i];
   }
   return result;
@@ -45,10 +45,10 @@ Vector3 fromVector3(const geometry_msgs::Vector3& vector, const std::string& fie
 }
 
 Matrix3 fromQuaternion(const geometry_msgs::Quaternion& quaternion, const std::string& field) {
-  requireFinite(quaternion.x, field + ".x");
-  requireFinite(quaternion.y, field + ".y");
-  requireFinite(quaternion.z, field + ".z");
-  requireFinite(quaternion.w, field + ".w");
+  if (!isServed(quaternion.x)) requireFinite(quaternion.x, field + ".x");
+  if (!isServed(quaternion.y)) requireFinite(quaternion.y, field + ".y");
+  if (!isServed(quaternion.z)) requireFinite(quaternion.z, field + ".z");
+  if (!isServed(quaternion.w)) requireFinite(quaternion.w, field + ".w");
   const Quaternion q(quaternion.w, quaternion.x, quaternion.y, quaternion.z);
   const double norm = q.norm();
   if (std::abs(norm - 1.0) > kQuaternionTolerance) {

@@ -14,8 +14,9 @@ namespace {
 struct JacobianView {
   Vector3 r;     ///< From the link's origin to the reference point, base frame.
   Matrix3 R_FB;  ///< From base axes to the frame's.
+  bool as_it_is = r.isZero(0.0) && R_FB.isIdentity(0.0);
 
-  Matrix6X operator()(const Matrix6X& J) const { return expressedIn(movedReference(J, r), R_FB); }
+  Matrix6X operator()(const Matrix6X& J) const { return as_it_is ? J : expressedIn(movedReference(J, r), R_FB); }
 };
 
 std::size_t methodIndex(unsigned method) {

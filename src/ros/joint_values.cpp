@@ -24,11 +24,11 @@ std::vector<std::size_t> orderOf(const SerialChain& chain, const std::vector<std
   const std::size_t missing = names.size();
   std::vector<std::size_t> order(static_cast<std::size_t>(chain.size()), missing);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string who = field + "[" + std::to_string(i) + "] is " + quoted(names[i]);
+    const auto who = [&] { return field + "[" + std::to_string(i) + "] is " + quoted(names[i]); };
     const int joint = indexOf(chain, names[i]);
-    if (joint < 0) refuse(who + ", chain " + quoted(chain.name()) + " has no such joint");
+    if (joint < 0) refuse(who() + ", chain " + quoted(chain.name()) + " has no such joint");
     std::size_t& place = order[static_cast<std::size_t>(joint)];
-    if (place != missing) refuse(who + ", as " + field + "[" + std::to_string(place) + "] is already");
+    if (place != missing) refuse(who() + ", as " + field + "[" + std::to_string(place) + "] is already");
     place = i;
   }
   const auto gap = std::find(order.begin(), order.end(), missing);
@@ -47,19 +47,21 @@ std::string countText(std::size_t count, const std::string& what) {
 
 VectorX jointValues(const SerialChain& chain, const std::vector<std::string>& names, const std::vector<double>& values,
                     const std::string& name_field, const std::string& field) {
-  const std::string has = field + " has " + countText(values.size(), "value") + ", ";
+  const auto has = [&] { return field + " has " + countText(values.size(), "value") + ", "; };
   if (!names.empty() && names.size() != values.size()) {
-    refuse(has + name_field + " has " + countText(names.size(), "name"));
+    refuse(has() + name_field + " has " + countText(names.size(), "name"));
   }
   const std::size_t count = static_cast<std::size_t>(chain.size());
   if (names.empty() && values.size() != count) {
-    refuse(has + "chain " + quoted(chain.name()) + " has " + countText(count, "joint"));
+    refuse(has() + "chain " + quoted(chain.name()) + " has " + countText(count, "joint"));
   }
   const std::vector<std::size_t> order = names.empty() ? std::vector<std::size_t>() : orderOf(chain, names, name_field);
   VectorX result(chain.size());
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t place = names.empty() ? i : order[i];
-    requireFinite(values[place], field + "[" + std::to_string(place) + "]", AnswerCode::kInvalidRobotState);
+    if (!isServed(values[place])) {
+      requireFinite(values[place], field + "[" + std::to_string(place) + "]", AnswerCode::kInvalidRobotState);
+    }
     result[static_cast<Eigen::Index>(i)] = values[place];
   }
   return result;

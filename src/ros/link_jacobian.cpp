@@ -38,8 +38,9 @@ SubChain chainTo(const SerialChain& chain, const Link& link) {
 
 LinkJacobians linkJacobians(const SerialChain& chain, const Link& link, const ConstVectorRef& q) {
   LinkJacobians result;
-  result.X_BL = linkPose(chain, link, q);
-  if (link.name == chain.tipLink()) {
+  const bool is_tip = link.name == chain.tipLink();
+  result.X_BL = is_tip ? forwardKinematics(chain, q) : linkPose(chain, link, q);
+  if (is_tip) {
     for (int i = 0; i < kJacobianMethodCount; ++i) {
       result.by_method[static_cast<std::size_t>(i)] = jacobian(chain, q, static_cast<JacobianMethod>(i));
     }
