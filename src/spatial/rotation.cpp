@@ -51,6 +51,7 @@ Matrix3 orthonormalized(const Matrix3& M) {
 }
 
 double wrapAngle(double angle) {
+  if (angle > -kPi && angle <= kPi) return angle;
   const double wrapped = std::remainder(angle, kTwoPi);
   return wrapped <= -kPi ? wrapped + kTwoPi : wrapped;
 }
