@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "account.h"
+#include "completed_method.h"
 #include "ik_request_check.h"
 #include "mate.h"
 #include "parallel_candidates.h"
@@ -40,9 +41,7 @@ Candidate searched(const VectorX& q) {
 
 /// A redundant chain's solution lies on its self-motion; told here to first order, its range is not traced.
 void describeRedundancy(const SerialChain& chain, const Task& task, IkAnswer& solution) {
-  Matrix6X J(6, chain.size());
-  geometricJacobian(chain, solution.position, J);
-  solution.self_motion = taskRank(task.select(J)).self_motions;
+  solution.self_motion = taskRank(taskJacobian(chain, solution.position, task)).self_motions;
   for (int i = 0; i < chain.size(); ++i) {
     if (solution.self_motion.rows() > 0 && solution.self_motion.col(i).cwiseAbs().maxCoeff() > 1e-9)
       solution.free_joints.push_back(i);
@@ -62,7 +61,7 @@ struct InverseKinematics::Implementation {
   Implementation(const SerialChain& chain_in, const Task& task_in)
       : chain(chain_in),
         task(task_in),
-        plan(planFor(chain, task)),
+        plan(planFor(chain, task.rotationCount() == 3 ? wholeRowsOf(task) : task)),
         almost_singular(kAlmostSingular * std::pow(chain.characteristicLength(), task.translationCount())) {
     if (plan) {
       method = "closed form: " + plan->plan.method();
@@ -72,6 +71,11 @@ struct InverseKinematics::Implementation {
     parallel = parallelMethodFor(chain, task);
     if (parallel) {
       method = "closed form: " + parallel->plan.method();
+      return;
+    }
+    completed = CompletedMethod::compile(chain, task);
+    if (completed) {
+      method = completed->method();
       return;
     }
     // Both are empty where the chain has another number of joints.
@@ -84,7 +88,7 @@ struct InverseKinematics::Implementation {
                          : "numerical search (Levenberg-Marquardt from many starts)";
   }
 
-  bool isExact() const { return plan || parallel || algebraic || (redundant && redundant->closedForm()); }
+  bool isExact() const { return plan || parallel || completed || algebraic || (redundant && redundant->closedForm()); }
 
   std::vector<Candidate> candidates(const IkRequest& request, const SolutionBuilder& builder, bool doubted,
                                     IkResult& result) const;
@@ -108,6 +112,7 @@ struct InverseKinematics::Implementation {
   // At most one of these; none: searched.
   std::optional<TaskPlan> plan;
   std::optional<ParallelMethod> parallel;
+  std::optional<CompletedMethod> completed;
   std::optional<AlgebraicSolver> algebraic;
   std::optional<SelfMotionSolver> redundant;
   std::string method;
@@ -133,6 +138,10 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
     return found.found;
   }
   std::vector<Candidate> found;
+  if (completed) {
+    found = completed->candidates(request.target, builder.seed(), doubted, result.complete);
+    return result.complete ? found : withSearched(request, builder, std::move(found), result);
+  }
   if (algebraic) {
     AlgebraicSolutions roots;
     algebraic->solve(request.target, roots);
@@ -154,7 +163,9 @@ std::vector<Candidate> InverseKinematics::Implementation::withSearched(const IkR
   options.max_solutions = request.max_solutions;
   const SearchResult search_result = search(chain, task, request.target, {builder.seed()}, options);
   result.timed_out = search_result.timed_out;
-  for (const VectorX& q : search_result.solutions) found.push_back(searched(q));
+  for (const VectorX& q : search_result.solutions) {
+    found.push_back(completed ? completed->candidateAt(q) : searched(q));
+  }
   return found;
 }
 
@@ -167,10 +178,10 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vect
     std::optional<IkAnswer> solution = builder.build(std::move(candidate));
     if (!solution) {
       // Rows that the plan does not know reject solutions rightly; its own rows never should.
-      if (algebraic || parallel || (plan && plan->task.size() == task.size())) all = false;
+      if (algebraic || parallel || completed || (plan && plan->task.size() == task.size())) all = false;
       continue;
     }
-    if (chain.size() > task.size()) describeRedundancy(chain, task, *solution);
+    if (chain.size() > task.size() && solution->self_motion.rows() == 0) describeRedundancy(chain, task, *solution);
     if (isAlmostSingular(*solution)) addMate(request, *solution, builder, mates);
     admit(request, std::move(*solution), builder, result);
   }
@@ -195,7 +206,7 @@ void InverseKinematics::Implementation::addMate(const IkRequest& request, const 
 
 /// By what costs nothing; mateOf() looks closer.
 bool InverseKinematics::Implementation::isAlmostSingular(const IkAnswer& solution) const {
-  return (plan || algebraic) && chain.size() == task.size() && solution.self_motion.rows() == 0 &&
+  return (plan || completed || algebraic) && chain.size() == task.size() && solution.self_motion.rows() == 0 &&
          solution.manipulability <= almost_singular;
 }
 
@@ -280,7 +291,7 @@ void InverseKinematics::Implementation::admitSeed(const SolutionBuilder& builder
 /// Why a list that is not complete is not.
 std::string InverseKinematics::Implementation::doubt() const {
   if (plan) return "a continuum was met whose members had to be searched";
-  if (algebraic || parallel) return "the pose is at or near a continuum or a multiple solution";
+  if (algebraic || parallel || completed) return "the pose is at or near a continuum or a multiple solution";
   return redundant ? "self-motions were found by numerical search or meet" : "found by numerical search";
 }
 
@@ -332,6 +343,7 @@ std::vector<std::string> InverseKinematics::branches() const {
   const Implementation& self = *implementation_;
   if (self.plan) return branchNamesOf(self.plan->plan.branchParts());
   if (self.parallel) return branchNamesOf(self.parallel->plan.branchParts());
+  if (self.completed && self.completed->branchParts() != nullptr) return branchNamesOf(*self.completed->branchParts());
   const bool named = self.redundant && self.redundant->closedForm();
   return named ? branchNamesOf(self.redundant->closedForm()->plan().branchParts()) : std::vector<std::string>();
 }
@@ -342,7 +354,7 @@ bool InverseKinematics::Implementation::gather(const IkRequest& request, const S
   std::vector<Candidate> found = joinEqual(chain, candidates(request, builder, false, result));
   bool any = !found.empty();
   bool all = keep(request, std::move(found), builder, result);
-  if (!all && parallel) {
+  if (!all && (parallel || completed)) {
     result.solutions.clear();
     result.outside_limits = 0;
     found = joinEqual(chain, candidates(request, builder, true, result));

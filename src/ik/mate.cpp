@@ -23,14 +23,16 @@ class Residual {
       : chain_(chain), task_(task), target_(target) {}
 
   VectorX at(const VectorX& q) {
-    return task_.select(taskError(task_, target_, geometricJacobian(chain_, q, J_)).twist);
+    tip_ = geometricJacobian(chain_, q, J_);
+    return task_.select(taskError(task_, target_, tip_).twist, tip_.R);
   }
-  MatrixX jacobian() const { return task_.select(J_); }
+  MatrixX jacobian() const { return task_.select(J_, tip_.R); }
 
  private:
   const SerialChain& chain_;
   const Task& task_;
   const Pose& target_;
+  Pose tip_;
   Matrix6X J_;
 };
 

@@ -109,7 +109,7 @@ bool addContinua(const ParallelMethod& method, const SerialChain& chain, const P
 }  // namespace
 
 std::optional<ParallelMethod> parallelMethodFor(const SerialChain& chain, const Task& task) {
-  if (task.size() != 6 || task.rotationCount() != 3) return std::nullopt;
+  if (chain.size() != 6 || task.size() != 6 || task.rotationCount() != 3) return std::nullopt;
   std::optional<ParallelPlan> plan = ParallelPlan::compile(chain);
   if (!plan) return std::nullopt;
   return ParallelMethod{*plan, AlgebraicSolver::compile(chain)};

@@ -78,7 +78,9 @@ bool SolutionBuilder::seedSolves() const {
 
 /// Errors by forward kinematics, with the Jacobian, and the distance to the seed. Returns both errors' norm.
 double SolutionBuilder::verify(IkAnswer& solution) const {
-  const TaskError error = taskError(task_, request_.target, geometricJacobian(chain_, solution.position, jacobian_));
+  const Pose tip = geometricJacobian(chain_, solution.position, jacobian_);
+  orientation_ = tip.R;
+  const TaskError error = taskError(task_, request_.target, tip);
   solution.position_error = error.position;
   solution.orientation_error = error.orientation;
   solution.distance = (solution.position - seed_).norm();
@@ -87,10 +89,11 @@ double SolutionBuilder::verify(IkAnswer& solution) const {
 
 /// @pre jacobian_ is the solution's.
 void SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
-  const TaskConditioning conditioning = conditioningOf(task_.select(jacobian_), jacobianNoise(jacobian_));
+  const TaskConditioning conditioning = conditioningOf(task_.select(jacobian_, orientation_), jacobianNoise(jacobian_));
   solution.joint_error = std::hypot(solution.position_error, solution.orientation_error) / conditioning.smallest;
   solution.manipulability = conditioning.manipulability;
-  solution.singular = merged || solution.self_motion.rows() > 0 || !conditioning.full_rank;
+  solution.singular =
+      merged || solution.self_motion.rows() > std::max(0, chain_.size() - task_.size()) || !conditioning.full_rank;
   if (solution.self_motion.rows() == 0) solution.self_motion.resize(0, chain_.size());
 }
 

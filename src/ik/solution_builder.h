@@ -35,7 +35,8 @@ class SolutionBuilder {
   const Task& task_;
   const IkRequest& request_;
   VectorX seed_;
-  mutable Matrix6X jacobian_;  ///< Of the configuration verified last. A builder serves one request, in one thread.
+  mutable Matrix6X jacobian_;    ///< Of the configuration verified last. A builder serves one request, in one thread.
+  mutable Matrix3 orientation_;  ///< Its tip's.
 };
 
 /// Candidates with those that are the same within kSameSolution joined into one, marked merged.

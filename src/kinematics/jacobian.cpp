@@ -42,8 +42,18 @@ Matrix6X expressedIn(const Matrix6X& J, const Matrix3& R_FB) {
   return turned;
 }
 
+MatrixX taskJacobian(const Task& task, const Matrix6X& J, const Matrix3& R_BT) {
+  return task.select(J, R_BT);
+}
+
 MatrixX taskJacobian(const Task& task, const Matrix6X& J) {
   return task.select(J);
+}
+
+MatrixX taskJacobian(const SerialChain& chain, const ConstVectorRef& q, const Task& task) {
+  Matrix6X J;
+  const Matrix3 R_BT = geometricJacobian(chain, q, J).R;
+  return task.select(J, R_BT);
 }
 
 double determinantOrNan(const MatrixX& J) {

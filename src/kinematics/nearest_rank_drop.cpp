@@ -43,16 +43,12 @@ class RankDrop {
   }
 
  private:
-  MatrixX jacobianAt(const VectorX& q) const {
-    Matrix6X J;
-    geometricJacobian(volume_.chain(), q, J);
-    return taskJacobian(volume_.task(), J);
-  }
+  MatrixX jacobianAt(const VectorX& q) const { return taskJacobian(volume_.chain(), q, volume_.task()); }
 
   bool isSingular(const VectorX& q) const {
     Matrix6X J;
-    geometricJacobian(volume_.chain(), q, J);
-    const MatrixX J_task = taskJacobian(volume_.task(), J);
+    const Matrix3 R_BT = geometricJacobian(volume_.chain(), q, J).R;
+    const MatrixX J_task = taskJacobian(volume_.task(), J, R_BT);
     const VectorX sigma = Eigen::JacobiSVD<MatrixX>(J_task).singularValues();
     return rankOf(sigma, jacobianNoise(J)) < sigma.size();
   }

@@ -13,8 +13,8 @@ namespace {
 
 bool isSingular(const TaskDeterminant& determinant, const VectorX& q) {
   Matrix6X J;
-  geometricJacobian(determinant.chain(), q, J);
-  const VectorX sigma = Eigen::JacobiSVD<MatrixX>(taskJacobian(determinant.task(), J)).singularValues();
+  const Matrix3 R_BT = geometricJacobian(determinant.chain(), q, J).R;
+  const VectorX sigma = Eigen::JacobiSVD<MatrixX>(taskJacobian(determinant.task(), J, R_BT)).singularValues();
   return rankOf(sigma, jacobianNoise(J)) < sigma.size();
 }
 

@@ -74,8 +74,8 @@ SingularityAnalysis analyzeSingularity(const SerialChain& chain, const ConstVect
 SingularityAnalysis analyzeSingularity(const SerialChain& chain, const ConstVectorRef& q, const Task& task,
                                        const std::vector<SingularityFactor>& factors) {
   Matrix6X J;
-  geometricJacobian(chain, q, J);
-  const MatrixX J_task = taskJacobian(task, J);
+  const Matrix3 R_BT = geometricJacobian(chain, q, J).R;
+  const MatrixX J_task = taskJacobian(task, J, R_BT);
   const TaskDeterminant determinant(chain, task);
 
   SingularityAnalysis analysis;

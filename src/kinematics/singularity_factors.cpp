@@ -54,9 +54,16 @@ bool TaskDeterminant::isSquare() const {
 
 double TaskDeterminant::operator()(const ConstVectorRef& q) const {
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxJoints>;
-  geometricJacobian(chain_, q, J_);
+  const Matrix3 R_BT = geometricJacobian(chain_, q, J_).R;
   Small A(task_.size(), chain_.size());
-  for (int i = 0; i < task_.size(); ++i) A.row(i) = J_.row(task_.row(i));
+  for (int i = 0; i < task_.size(); ++i) {
+    const int row = task_.row(i);
+    if (row < Task::kFirstToolRow) {
+      A.row(i) = J_.row(row);
+    } else {
+      A.row(i).noalias() = R_BT.col(row - Task::kFirstToolRow).transpose() * J_.bottomRows<3>();
+    }
+  }
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
   if (isSquare()) return Square(A).determinant();
   if (A.rows() < A.cols()) return Square(A * A.transpose()).determinant();

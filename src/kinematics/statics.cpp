@@ -14,8 +14,8 @@ VectorX effortOf(const SerialChain& chain, const ConstVectorRef& q, const Vector
 WrenchSolution wrenchOf(const SerialChain& chain, const ConstVectorRef& q, const ConstVectorRef& effort,
                         const Task& task) {
   Matrix6X J;
-  geometricJacobian(chain, q, J);
-  const MatrixX A = taskJacobian(task, J).transpose();
+  const Matrix3 R_BT = geometricJacobian(chain, q, J).R;
+  const MatrixX A = taskJacobian(task, J, R_BT).transpose();
   const Eigen::JacobiSVD<MatrixX> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const int rank = rankOf(svd.singularValues(), jacobianNoise(J));
   VectorX F = VectorX::Zero(task.size());
@@ -23,8 +23,7 @@ WrenchSolution wrenchOf(const SerialChain& chain, const ConstVectorRef& q, const
     F += svd.matrixU().col(i).dot(effort) / svd.singularValues()[i] * svd.matrixV().col(i);
   }
   WrenchSolution solution;
-  solution.wrench.setZero();
-  for (int i = 0; i < task.size(); ++i) solution.wrench[task.row(i)] = F[i];
+  solution.wrench = task.spread(F, R_BT);
   solution.residual = (effort - A * F).norm();
   solution.exact = solution.residual < 1e-9 * (1.0 + effort.norm());
   return solution;

@@ -54,31 +54,43 @@ bool isRegular(const MatrixX& J_task) {
   return sigma.size() == J_task.rows() && sigma[sigma.size() - 1] > kRegular * sigma[0];
 }
 
-bool isMostlyRegular(const std::vector<Matrix6X>& jacobians, const Task& task) {
-  const auto regular = std::count_if(jacobians.begin(), jacobians.end(), [&task](const Matrix6X& J) {
-    const MatrixX J_task = taskJacobian(task, J);
-    return J_task.norm() > kRegular * J.norm() && isRegular(J_task);
+struct Sample {
+  Matrix6X J;
+  Matrix3 R_BT;
+};
+
+bool isMostlyRegular(const std::vector<Sample>& samples, const Task& task) {
+  const auto regular = std::count_if(samples.begin(), samples.end(), [&task](const Sample& sample) {
+    const MatrixX J_task = taskJacobian(task, sample.J, sample.R_BT);
+    return J_task.norm() > kRegular * sample.J.norm() && isRegular(J_task);
   });
-  return 2 * regular > static_cast<std::ptrdiff_t>(jacobians.size());
+  return 2 * regular > static_cast<std::ptrdiff_t>(samples.size());
 }
 
 }  // namespace
 
 Task deriveTask(const SerialChain& chain) {
   if (chain.size() >= 6) return Task();
-  std::vector<Matrix6X> jacobians(kSamples);
+  std::vector<Sample> samples(kSamples);
   for (int k = 0; k < kSamples; ++k) {
-    geometricJacobian(chain, sampleConfiguration(chain, k), jacobians[static_cast<std::size_t>(k)]);
+    Sample& sample = samples[static_cast<std::size_t>(k)];
+    sample.R_BT = geometricJacobian(chain, sampleConfiguration(chain, k), sample.J).R;
+  }
+  // Two of rx ry rz are no orientation: five joints have the direction of an axis of the tool, z rather than others.
+  for (int axis : {2, 0, 1}) {
+    const Task task =
+        Task::fromRows({0, 1, 2, Task::kFirstToolRow + (axis == 0 ? 1 : 0), Task::kFirstToolRow + (axis == 2 ? 1 : 2)});
+    if (chain.size() == 5 && isMostlyRegular(samples, task)) return task;
   }
   for (int size = chain.size(); size > 1; --size) {
     for (const std::vector<int>& rows : candidates(size)) {
       const Task task = Task::fromRows(rows);
-      if (isMostlyRegular(jacobians, task)) return task;
+      if (isMostlyRegular(samples, task)) return task;
     }
   }
   // Some row always moves: a chain has at least one joint.
   for (const std::vector<int>& rows : candidates(1)) {
-    if (isMostlyRegular(jacobians, Task::fromRows(rows))) return Task::fromRows(rows);
+    if (isMostlyRegular(samples, Task::fromRows(rows))) return Task::fromRows(rows);
   }
   return Task();
 }

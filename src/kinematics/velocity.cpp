@@ -48,9 +48,9 @@ Vector6 tipTwist(const SerialChain& chain, const ConstVectorRef& q, const ConstV
 VelocitySolution solveVelocity(const SerialChain& chain, const ConstVectorRef& q, const Vector6& twist,
                                const Task& task) {
   Matrix6X J;
-  geometricJacobian(chain, q, J);
-  const MatrixX J_task = taskJacobian(task, J);
-  const VectorX wanted = task.select(twist);
+  const Matrix3 R_BT = geometricJacobian(chain, q, J).R;
+  const MatrixX J_task = taskJacobian(task, J, R_BT);
+  const VectorX wanted = task.select(twist, R_BT);
   const double norm = wanted.norm();
   const Eigen::JacobiSVD<MatrixX> svd(J_task, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const VectorX& sigma = svd.singularValues();
@@ -66,7 +66,7 @@ VelocitySolution solveVelocity(const SerialChain& chain, const ConstVectorRef& q
     solution.damping = std::max(solution.damping, gain.damping);
   }
   solution.twist = J * solution.velocity;
-  solution.residual = (wanted - task.select(solution.twist)).norm();
+  solution.residual = (wanted - task.select(solution.twist, R_BT)).norm();
   solution.exact = solution.damping == 0.0 && solution.residual < 1e-9 * (1.0 + norm);
   return solution;
 }

@@ -7,7 +7,16 @@
 namespace screwline {
 namespace {
 
-const std::array<const char*, 6> kRowNames = {"x", "y", "z", "rx", "ry", "rz"};
+const std::array<const char*, 9> kRowNames = {"x", "y", "z", "rx", "ry", "rz", "tx", "ty", "tz"};
+const char* const kKnownRows = "; known rows are x, y, z, rx, ry, rz, tx, ty, tz";
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw InputError(AnswerCode::kInvalidGoal, message);
+}
+
+void requireNoToolAxes(const Task& task) {
+  if (task.usesToolAxes()) throw Exception("internal error: rows about the tool's axes need the tool's orientation");
+}
 
 }  // namespace
 
@@ -22,17 +31,20 @@ Task Task::fromRows(const std::vector<int>& rows) {
 }
 
 Task Task::parse(const std::vector<std::string>& names) {
-  if (names.empty()) throw InputError(AnswerCode::kInvalidGoal, "task has no row; known rows are x, y, z, rx, ry, rz");
+  if (names.empty()) refuse(std::string("task has no row") + kKnownRows);
   std::vector<int> rows;
   for (const std::string& name : names) {
     const auto found = std::find(kRowNames.begin(), kRowNames.end(), name);
-    if (found == kRowNames.end()) {
-      throw InputError(AnswerCode::kInvalidGoal,
-                       "task row '" + name + "' is unknown; known rows are x, y, z, rx, ry, rz");
-    }
+    if (found == kRowNames.end()) refuse("task row '" + name + "' is unknown" + kKnownRows);
     const int row = static_cast<int>(found - kRowNames.begin());
-    if (std::find(rows.begin(), rows.end(), row) != rows.end()) {
-      throw InputError(AnswerCode::kInvalidGoal, "task row '" + name + "' is given twice");
+    if (std::find(rows.begin(), rows.end(), row) != rows.end()) refuse("task row '" + name + "' is given twice");
+    const auto is_other = [row](int other) {
+      return row >= 3 && other >= 3 && (row < kFirstToolRow) != (other < kFirstToolRow);
+    };
+    const auto other = std::find_if(rows.begin(), rows.end(), is_other);
+    if (other != rows.end()) {
+      refuse("task row '" + name + "' stands beside '" + kRowNames[static_cast<std::size_t>(*other)] +
+             "'; rotation rows are along the base's axes (rx ry rz) or the tool's (tx ty tz), not both");
     }
     rows.push_back(row);
   }
@@ -57,16 +69,56 @@ std::vector<std::string> Task::names() const {
   return names;
 }
 
-MatrixX Task::select(const Matrix6X& J) const {
+bool Task::usesToolAxes() const {
+  return std::any_of(rows_.begin(), rows_.begin() + size_, [](int row) { return row >= kFirstToolRow; });
+}
+
+int Task::pointingAxis() const {
+  if (!usesToolAxes() || rotationCount() != 2) return -1;
+  int axis = 0;
+  while (contains(kFirstToolRow + axis)) ++axis;
+  return axis;
+}
+
+MatrixX Task::select(const Matrix6X& J, const Matrix3& R) const {
   MatrixX selected(size_, J.cols());
-  for (int i = 0; i < size_; ++i) selected.row(i) = J.row(row(i));
+  for (int i = 0; i < size_; ++i) {
+    if (row(i) < kFirstToolRow) {
+      selected.row(i) = J.row(row(i));
+    } else {
+      selected.row(i).noalias() = R.col(row(i) - kFirstToolRow).transpose() * J.bottomRows<3>();
+    }
+  }
   return selected;
 }
 
-VectorX Task::select(const Vector6& v) const {
+VectorX Task::select(const Vector6& v, const Matrix3& R) const {
   VectorX selected(size_);
-  for (int i = 0; i < size_; ++i) selected[i] = v[row(i)];
+  for (int i = 0; i < size_; ++i)
+    selected[i] = row(i) < kFirstToolRow ? v[row(i)] : R.col(row(i) - kFirstToolRow).dot(v.tail<3>());
   return selected;
+}
+
+Vector6 Task::spread(const VectorX& values, const Matrix3& R) const {
+  Vector6 v = Vector6::Zero();
+  for (int i = 0; i < size_; ++i) {
+    if (row(i) < kFirstToolRow) {
+      v[row(i)] = values[i];
+    } else {
+      v.tail<3>() += values[i] * R.col(row(i) - kFirstToolRow);
+    }
+  }
+  return v;
+}
+
+MatrixX Task::select(const Matrix6X& J) const {
+  requireNoToolAxes(*this);
+  return select(J, Matrix3::Identity());
+}
+
+VectorX Task::select(const Vector6& v) const {
+  requireNoToolAxes(*this);
+  return select(v, Matrix3::Identity());
 }
 
 }  // namespace screwline

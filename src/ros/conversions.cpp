@@ -30,6 +30,8 @@ geometry_msgs::Vector3 toVector3(const Vector3& vector) {
 }  // namespace
 
 ReadMask readMask(const Task& task, int first_row, bool along_base_axes) {
+  // Rows about the tool's axes depend on all three components.
+  if (first_row == 3 && task.usesToolAxes()) return {true, true, true};
   const ReadMask rows{task.contains(first_row), task.contains(first_row + 1), task.contains(first_row + 2)};
   if (along_base_axes) return rows;
   const bool any = rows[0] || rows[1] || rows[2];
@@ -109,6 +111,12 @@ Task toTask(const std::vector<std::string>& names, const Task& otherwise) {
 }
 
 void requireMeaning(const Task& task) {
+  if (task.usesToolAxes()) {
+    if (task.rotationCount() != 1) return;
+    throw InputError(
+        AnswerCode::kInvalidGoal,
+        "task has 1 of tx ty tz, it must have two of them (the direction of the third axis), all three or none");
+  }
   if (task.rotationCount() != 2) return;
   throw InputError(AnswerCode::kInvalidGoal, "task has 2 of rx ry rz, it must have one of them, all three or none");
 }

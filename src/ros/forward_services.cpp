@@ -64,7 +64,7 @@ Outcome KinematicsServer::computeJacobian(const ComputeJacobian::Request& reques
   for (const Matrix6X& other : all.by_method) {
     disagreement = std::max(disagreement, (view(other) - J).cwiseAbs().maxCoeff());
   }
-  const MatrixX task_rows = robot_.task.select(J);
+  const MatrixX task_rows = taskJacobian(robot_.task, J, view.R_FB * all.X_BL.R);
   response.joint_names = chain.jointNames();
   response.jacobian = rowMajor(J);
   response.task = robot_.task.names();

@@ -90,13 +90,6 @@ void addDoubleArrow(const char* space, int first_id, const Color& color, const V
   }
 }
 
-/// A task direction as a twist.
-Vector6 twistOf(const Task& task, const VectorX& direction) {
-  Vector6 twist = Vector6::Zero();
-  for (int i = 0; i < task.size(); ++i) twist[task.row(i)] = direction[i];
-  return twist;
-}
-
 }  // namespace
 
 geometry_msgs::Point toPoint(const Vector3& point) {
@@ -147,9 +140,9 @@ Marker manipulabilityMarker(const Matrix6X& J, const Vector3& tool, double scale
   return marker;
 }
 
-std::vector<Marker> lostDirectionMarkers(const Task& task, const Matrix6X& J, const Vector3& tool, double near_singular,
+std::vector<Marker> lostDirectionMarkers(const Task& task, const Matrix6X& J, const Pose& tool, double near_singular,
                                          double length) {
-  const Eigen::JacobiSVD<MatrixX> svd(taskJacobian(task, J), Eigen::ComputeFullU);
+  const Eigen::JacobiSVD<MatrixX> svd(taskJacobian(task, J, tool.R), Eigen::ComputeFullU);
   const VectorX& values = svd.singularValues();
   const double bound = std::max(near_singular * values[0], jacobianNoise(J));
   const double width = kLineWidth / kLostLength * length;
@@ -157,14 +150,14 @@ std::vector<Marker> lostDirectionMarkers(const Task& task, const Matrix6X& J, co
   for (int slot = 0; slot < kLostSlots; ++slot) {
     const Eigen::Index k = values.size() - 1 - slot;  // The smallest value has slot 0.
     const bool lost = k >= 0 && values[k] <= bound;
-    const Vector6 twist = lost ? twistOf(task, svd.matrixU().col(k)) : Vector6::Zero();
+    const Vector6 twist = lost ? task.spread(svd.matrixU().col(k), tool.R) : Vector6::Zero();
     const float nearness = lost && bound > 0.0 ? 1.0F - static_cast<float>(values[k] / bound) : 1.0F;
     Color linear = kLostLinearColor;
     Color angular = kLostAngularColor;
     linear.a = angular.a = kPalestLost + (1.0F - kPalestLost) * nearness;
     const double shortest = kSmallestPart * length;
-    addDoubleArrow(kLostDirectionMarkers, 4 * slot, linear, tool, length * twist.head<3>(), shortest, width, markers);
-    addDoubleArrow(kLostDirectionMarkers, 4 * slot + 2, angular, tool, length * twist.tail<3>(), shortest, width,
+    addDoubleArrow(kLostDirectionMarkers, 4 * slot, linear, tool.p, length * twist.head<3>(), shortest, width, markers);
+    addDoubleArrow(kLostDirectionMarkers, 4 * slot + 2, angular, tool.p, length * twist.tail<3>(), shortest, width,
                    markers);
   }
   return markers;
@@ -185,9 +178,9 @@ std::vector<Marker> configurationMarkers(const SerialChain& chain, const Task& t
                                          const MarkerParams& params) {
   const double length = chain.characteristicLength();
   Matrix6X J;
-  const Vector3 tool = geometricJacobian(chain, q, J).p;
+  const Pose tool = geometricJacobian(chain, q, J);
   std::vector<Marker> markers = screwAxisMarkers(chain, q);
-  markers.push_back(manipulabilityMarker(J, tool, params.ellipsoid_scale, kThinnestEllipsoid * length));
+  markers.push_back(manipulabilityMarker(J, tool.p, params.ellipsoid_scale, kThinnestEllipsoid * length));
   const std::vector<Marker> lost = lostDirectionMarkers(task, J, tool, params.near_singular, kLostLength * length);
   markers.insert(markers.end(), lost.begin(), lost.end());
   return markers;

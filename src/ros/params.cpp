@@ -28,7 +28,8 @@ RobotParams readRobotParams(ParamReader& reader) {
   params.tip_link = reader.text(kTipLinkParam, params.tip_link);
   params.task = reader.texts(kTaskParam);
   if (reader.has(kTaskParam) && params.task.empty()) {
-    throw ModelError(reader.nameOf(kTaskParam) + " has no rows, it must name some of x y z rx ry rz");
+    throw ModelError(reader.nameOf(kTaskParam) +
+                     " has no rows, it must name some of x y z rx ry rz, or x y z tx ty tz");
   }
   params.max_joints = reader.integer(kMaxJointsParam, params.max_joints, 1, kMaxJoints);
   // The search for robot_description starts in the private namespace.

@@ -20,17 +20,27 @@ FactoredFormula formulaOf(const ExactChain& chain, const FactoredPolynomial& pol
   return result;
 }
 
-ExactDeterminant workedOut(const ExactChain& chain, const Task& task) {
+/// The task's rows of a Jacobian whose components are in `frame`, those about the tool's axes of one in the tip's.
+TrigMatrix rowsOf(const ExactChain& chain, const Task& task, int frame, int point) {
   std::vector<int> rows;
   for (int i = 0; i < task.size(); ++i) rows.push_back(task.row(i));
+  if (!task.usesToolAxes()) return chain.jacobian(frame, point).selected(rows);
+  TrigMatrix all(chain.ring, Task::kFirstToolRow + 3, chain.joints);
+  all.setBlock(0, 0, chain.jacobian(frame, point));
+  all.setBlock(Task::kFirstToolRow, 0, chain.jacobian(chain.size + 1, point).selected({3, 4, 5}));
+  return all.selected(rows);
+}
+
+ExactDeterminant workedOut(const ExactChain& chain, const Task& task) {
   const int tip = chain.size + 1;
   // Turning whole blocks of rows, and with all six moving the reference point, does not change the determinant.
-  const bool turns = isWholeOrNone(task.translationCount()) && isWholeOrNone(task.rotationCount());
+  const bool turns =
+      isWholeOrNone(task.translationCount()) && (task.usesToolAxes() || isWholeOrNone(task.rotationCount()));
   const bool moves = task.size() == 6 && chain.joints >= 6;
   ExactDeterminant result{0, TrigMatrix(chain.ring, 0, 0), {}};
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   for (int frame = 0; frame <= (turns ? tip : 0); ++frame) {
-    TrigMatrix J = chain.jacobian(frame, moves ? frame : tip).selected(rows);
+    TrigMatrix J = rowsOf(chain, task, frame, moves ? frame : tip);
     const std::size_t count = J.termCount();
     if (count >= fewest) continue;
     fewest = count;

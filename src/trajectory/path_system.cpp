@@ -28,12 +28,12 @@ void PathSystem::evaluate(const VectorX& y) {
   path_.at(part_, y[n_], target_);
   const Pose actual = geometricJacobian(chain_, y.head(n_), J_);
   error_ = taskError(task_, target_.pose, actual);
+  R_BT_ = actual.R;
   rows_.resize(n_ + 1, task_.size());
   for (int i = 0; i < task_.size(); ++i) {
-    const int row = task_.row(i);
-    const double unit = row < 3 ? 1.0 / chain_.characteristicLength() : 1.0;
-    rows_.col(i).head(n_) = unit * J_.row(row).transpose().cwiseProduct(units_.head(n_));
-    rows_(n_, i) = -unit * target_.rate[row];
+    const Vector6 row = rowOf(i);
+    rows_.col(i).head(n_) = (J_.transpose() * row).cwiseProduct(units_.head(n_));
+    rows_(n_, i) = -row.dot(target_.rate);
   }
   factor_.compute(rows_);
   rank_ = std::min(n_, task_.size());
@@ -50,11 +50,22 @@ VectorX PathSystem::step() const {
   return shortest(error_.twist);
 }
 
+/// What takes a twist to the task's row i of it, in units.
+Vector6 PathSystem::rowOf(int i) const {
+  const int row = task_.row(i);
+  Vector6 result = Vector6::Zero();
+  if (row < Task::kFirstToolRow) {
+    result[row] = row < 3 ? 1.0 / chain_.characteristicLength() : 1.0;
+  } else {
+    result.tail<3>() = R_BT_.col(row - Task::kFirstToolRow);
+  }
+  return result;
+}
+
 VectorX PathSystem::inUnits(const Vector6& twist) const {
-  VectorX rows(task_.size());
+  VectorX rows = task_.select(twist, R_BT_);
   for (int i = 0; i < task_.size(); ++i) {
-    const int row = task_.row(i);
-    rows[i] = twist[row] * (row < 3 ? 1.0 / chain_.characteristicLength() : 1.0);
+    if (task_.row(i) < 3) rows[i] /= chain_.characteristicLength();
   }
   return rows;
 }
@@ -108,7 +119,13 @@ VectorX PathSystem::exactBend(const VectorX& direction) const {
   Matrix6X J_rate(6, n_);
   jacobianRate(chain_, y_.head(n_), direction.head(n_), J_, J_rate);
   const double du = direction[n_];
-  return shortest(target_.change * (du * du) - J_rate * direction.head(n_));
+  Vector6 change = target_.change * (du * du) - J_rate * direction.head(n_);
+  if (task_.usesToolAxes()) {
+    // The rows turn with the tool, and the tool may turn against the target about what is free.
+    const Vector3 w = J_.bottomRows<3>() * direction.head(n_);
+    change.tail<3>() -= w.cross(du * target_.rate.tail<3>());
+  }
+  return shortest(change);
 }
 
 VectorX PathSystem::bend(const VectorX& y, const VectorX& direction) {

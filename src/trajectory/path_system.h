@@ -47,6 +47,7 @@ class PathSystem {
  private:
   using Transposed = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxJoints + 1, 6>;
 
+  Vector6 rowOf(int i) const;
   VectorX inUnits(const Vector6& twist) const;
   VectorX shortest(const Vector6& twist) const;
   VectorX awayFromLimits(const VectorX& y) const;
@@ -62,6 +63,7 @@ class PathSystem {
   ToolPathPoint target_;
   TaskError error_;
   Matrix6X J_;
+  Matrix3 R_BT_;
   Transposed rows_;  ///< (n + 1) x m: derivatives of the error's rows, in units.
   Eigen::ColPivHouseholderQR<Transposed> factor_;
   int rank_ = 0;

@@ -27,13 +27,13 @@ class Closeness {
   }
 
   double operator()(double arc) {
-    geometricJacobian(chain_, configuration(arc), J_);
+    const Matrix3 R_BT = geometricJacobian(chain_, configuration(arc), J_).R;
     Matrix6X scaled = J_;
     scaled.topRows<3>() /= chain_.characteristicLength();
     for (int i = 0; i < chain_.size(); ++i) {
       if (!chain_.joint(i).isRevolute()) scaled.col(i) *= chain_.characteristicLength();
     }
-    const VectorX values = singularValues(task_.select(scaled));
+    const VectorX values = singularValues(task_.select(scaled, R_BT));
     return values[values.size() - 1] / values[0];
   }
 

@@ -247,6 +247,8 @@ class BadRequests(WithServer):
             self.at_q('compute_velocity', GOAL, task=task, direction=TO_JOINT)
 
         self.refused(GOAL, '2 of rx ry rz', service='compute_ik', pose=target(), task=['x', 'rx', 'ry'])
+        self.refused(GOAL, '1 of tx ty tz', service='compute_ik', pose=target(), task=['x', 'tx'])
+        self.refused(GOAL, "'ty' stands beside 'rx'", service='compute_ik', pose=target(), task=['x', 'rx', 'ty'])
 
     def test_target_poses(self):
         for value in (NAN, INFINITY, 1e7):

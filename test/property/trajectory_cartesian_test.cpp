@@ -101,7 +101,8 @@ TEST_P(CartesianLine, BackwardsIsTheSameWay) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, CartesianLine, testing::Values("puma560", "ur5", "rrr_planar", "scara", "panda"));
+INSTANTIATE_TEST_SUITE_P(Robots, CartesianLine,
+                         testing::Values("puma560", "ur5", "rrr_planar", "scara", "youbot_arm", "panda"));
 
 TEST(CartesianChecker, SeesAJointPathThatIsOffTheLine) {
   const Arm arm("puma560");

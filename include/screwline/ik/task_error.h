@@ -8,11 +8,11 @@
 namespace screwline {
 
 /// Error of a pose over the task's rows, the one measure of every solver. Translation rows: difference of position,
-/// base frame. All three rotation rows: rotation vector of R_target R^T. One or two rotation rows: those components of
-/// it.
+/// base frame. All three rotation rows: rotation vector of R_target R^T. Two rows about the tool's axes: the smallest
+/// turn that points its third axis as in the target. Other rotation rows: those components of the rotation vector.
 struct TaskError {
   Vector6 twist =
-      Vector6::Zero();       ///< From actual to target, [p; r], base frame; zero in the rows that are not of the task.
+      Vector6::Zero();       ///< From actual to target, [p; r], base frame; nothing along what is no row of the task.
   double position = 0.0;     ///< [m] norm of the translation rows.
   double orientation = 0.0;  ///< [rad] norm of the rotation rows.
 

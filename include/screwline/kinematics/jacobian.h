@@ -34,8 +34,13 @@ Matrix6X movedReference(const Matrix6X& J, const Vector3& r);
 /// J with both blocks expressed in another frame: R_FB applied to rows v and w.
 Matrix6X expressedIn(const Matrix6X& J, const Matrix3& R_FB);
 
-/// The task's rows of J, in task order: m x n. Allocates.
+/// The task's rows of J, in task order: m x n. R_BT: the tip's orientation in J's frame, for rows about the tool's
+/// axes. Allocates.
+MatrixX taskJacobian(const Task& task, const Matrix6X& J, const Matrix3& R_BT);
+/// Of a task without such rows. @throws Exception for others.
 MatrixX taskJacobian(const Task& task, const Matrix6X& J);
+/// At a configuration.
+MatrixX taskJacobian(const SerialChain& chain, const ConstVectorRef& q, const Task& task);
 
 /// Determinant where J is square, else NaN.
 double determinantOrNan(const MatrixX& J);

@@ -25,7 +25,7 @@ using ReadMask = std::array<bool, 3>;
 constexpr ReadMask kReadAll{true, true, true};
 
 /// The components of x y z (first_row 0) or rx ry rz (first_row 3) that a task reads. Along axes other than the base
-/// frame's every component is read where any row of the three is.
+/// frame's every component is read where any row of the three is; so is it for rows about the tool's axes.
 ReadMask readMask(const Task& task, int first_row, bool along_base_axes);
 
 /// @throws InputError (kInvalidGoal) naming the component of `field`: not finite or beyond kMaxMagnitude.
@@ -51,7 +51,8 @@ std::vector<double> rowMajor(const Eigen::Ref<const MatrixX>& matrix);
 /// Rows named by a request; none: `otherwise`. @throws InputError (kInvalidGoal): unknown or repeated rows.
 Task toTask(const std::vector<std::string>& names, const Task& otherwise);
 
-/// Two rotation rows fix neither an orientation nor a heading. @throws InputError (kInvalidGoal)
+/// Two of rx ry rz fix neither an orientation nor a heading, one of tx ty tz no direction. @throws InputError
+/// (kInvalidGoal)
 void requireMeaning(const Task& task);
 
 }  // namespace ros_bridge

@@ -33,7 +33,7 @@ visualization_msgs::Marker manipulabilityMarker(const Matrix6X& J, const Vector3
 /// Directions of the task's rows of J whose singular value is at or below `near_singular` of the largest: at the tool
 /// a double arrow of the linear part (ids 4 k, 4 k + 1) and one along the angular part (4 k + 2, 4 k + 3), up to
 /// `length` [m] each way, paler the farther from singular. Always 24 markers.
-std::vector<visualization_msgs::Marker> lostDirectionMarkers(const Task& task, const Matrix6X& J, const Vector3& tool,
+std::vector<visualization_msgs::Marker> lostDirectionMarkers(const Task& task, const Matrix6X& J, const Pose& tool,
                                                              double near_singular, double length);
 
 /// A line through points, oldest first.

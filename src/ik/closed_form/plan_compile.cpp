@@ -62,7 +62,7 @@ bool contains(const PlanSolutions& solutions, const SerialChain& chain, const Ve
 }  // namespace
 
 std::optional<ClosedFormPlan> ClosedFormPlan::compile(const SerialChain& chain, const Task& task) {
-  if (chain.hasMimic() || chain.size() != task.size()) return std::nullopt;
+  if (chain.hasMimic() || chain.size() != task.size() || task.usesToolAxes()) return std::nullopt;
   ClosedFormPlan plan;
   plan.home_ = chain.home();
   plan.length_ = chain.characteristicLength();

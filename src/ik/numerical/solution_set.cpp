@@ -13,9 +13,7 @@ constexpr double kBandFactor = 10.0;
 
 /// How far off a solution may be in joint space: residual over the smallest singular value.
 double jointBand(const SerialChain& chain, const Task& task, const ConstVectorRef& q, double residual) {
-  Matrix6X J;
-  geometricJacobian(chain, q, J);
-  const Eigen::JacobiSVD<MatrixX> svd(task.select(J));
+  const Eigen::JacobiSVD<MatrixX> svd(taskJacobian(chain, q, task));
   const double smallest = svd.singularValues().minCoeff();
   return smallest > 0.0 ? kBandFactor * (residual + kRounding * (1.0 + lengthUnit(chain))) / smallest : kPerhapsSame;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "../pointing.h"
 #include "screwline/spatial/rotation.h"
 
 namespace screwline {
@@ -26,12 +27,16 @@ TaskResidual::TaskResidual(const SerialChain& chain, const Task& task, const Pos
       target_(&target),
       rotation_weight_(rotation_weight),
       has_rotation_(task.rotationCount() > 0),
+      pointing_(task.pointingAxis()),
       J_(6, chain.size()) {}
 
 void TaskResidual::evaluate(TaskPoint& point) {
   const Pose X_BT = geometricJacobian(*chain_, point.q, J_);
   point.error = taskError(*task_, *target_, X_BT);
-  if (has_rotation_) {
+  if (pointing_ >= 0) {
+    const Matrix3 D = X_BT.R * pointingDerivative(target_->R, X_BT.R, pointing_) * X_BT.R.transpose();
+    for (Eigen::Index i = 0; i < J_.cols(); ++i) J_.col(i).tail<3>() = (D * J_.col(i).tail<3>()).eval();
+  } else if (has_rotation_) {
     const bool whole = task_->rotationCount() == 3;
     const Vector3 r = whole ? Vector3(point.error.twist.tail<3>()) : rotationVector(target_->R * X_BT.R.transpose());
     const Matrix3 D = inverseRightJacobian(r);
@@ -42,8 +47,14 @@ void TaskResidual::evaluate(TaskPoint& point) {
   for (int i = 0; i < task_->size(); ++i) {
     const int row = task_->row(i);
     const double weight = row < 3 ? 1.0 : rotation_weight_;
-    point.residual[i] = weight * point.error.twist[row];
-    point.J.row(i) = weight * J_.row(row);
+    if (row < Task::kFirstToolRow) {
+      point.residual[i] = weight * point.error.twist[row];
+      point.J.row(i) = weight * J_.row(row);
+    } else {
+      const Vector3 axis = weight * X_BT.R.col(row - Task::kFirstToolRow);
+      point.residual[i] = axis.dot(point.error.twist.tail<3>());
+      point.J.row(i).noalias() = axis.transpose() * J_.bottomRows<3>();
+    }
   }
   point.cost = 0.5 * point.residual.squaredNorm();
 }

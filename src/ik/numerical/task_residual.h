@@ -37,6 +37,7 @@ class TaskResidual {
   const Pose* target_;
   double rotation_weight_;
   bool has_rotation_;
+  int pointing_;  ///< The tool's axis that is to point somewhere; -1: none.
   Matrix6X J_;
 };
 

@@ -1,0 +1,188 @@
+#include "completed_method.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "screwline/ik/numerical/numerical_solver.h"
+#include "screwline/kinematics/jacobian.h"
+#include "screwline/spatial/rotation.h"
+
+namespace screwline {
+namespace {
+
+constexpr double kAlmostLocked = 1e-3;  ///< [rad] What a double root may leave of a locked joint's zero.
+constexpr int kMostSteps = 12;
+constexpr double kExact = 1e-13;      ///< [m, rad]
+constexpr double kOnTask = 1e-11;     ///< [m, rad]
+constexpr double kLongestStep = 0.3;  ///< [rad, m] Farther, another branch would be met.
+
+/// Newton steps of all joints but `held` from `q` to a solution.
+bool returned(const SerialChain& chain, const Task& task, const Pose& target, const std::vector<int>& held,
+              VectorX& q) {
+  Matrix6X J;
+  for (int k = 0; k < kMostSteps; ++k) {
+    const Pose tip = geometricJacobian(chain, q, J);
+    const TaskError error = taskError(task, target, tip);
+    if (error.norm() <= kExact) return true;
+    MatrixX J_task = task.select(J, tip.R);
+    for (int joint : held) J_task.col(joint).setZero();
+    Eigen::CompleteOrthogonalDecomposition<MatrixX> solver;
+    solver.setThreshold(1e-10);
+    const VectorX step = solver.compute(J_task).solve(task.select(error.twist, tip.R));
+    if (!(step.cwiseAbs().maxCoeff() <= kLongestStep)) return false;
+    q += step;
+  }
+  return taskError(task, target, forwardKinematics(chain, q)).norm() <= kOnTask;
+}
+
+/// Joints whose values give the others' on a self-motion of that dimension.
+std::vector<int> parameters(const MatrixX& J_task, std::size_t dimension) {
+  const auto k = static_cast<Eigen::Index>(dimension);
+  const Eigen::JacobiSVD<MatrixX> svd(J_task, Eigen::ComputeFullV);
+  const MatrixX null_space = svd.matrixV().rightCols(k).transpose();
+  const Eigen::ColPivHouseholderQR<MatrixX> qr(null_space);
+  std::vector<int> joints;
+  for (Eigen::Index i = 0; i < k; ++i) joints.push_back(static_cast<int>(qr.colsPermutation().indices()[i]));
+  std::sort(joints.begin(), joints.end());
+  return joints;
+}
+
+}  // namespace
+
+CompletedMethod::CompletedMethod(const SerialChain& chain, const Task& task, CompletedChain completed)
+    : chain_(chain), task_(task), completed_(std::move(completed)), rejects_(completed_.locked > 0) {}
+
+bool CompletedMethod::compileExact(bool closed_form) {
+  const Task whole = wholeRowsOf(task_);
+  if (!closed_form) {
+    if (whole.size() == 6) algebraic_ = AlgebraicSolver::compile(completed_.chain);
+    if (algebraic_) method_ = algebraic_->method();
+    return algebraic_.has_value();
+  }
+  plan_ = planFor(completed_.chain, whole);
+  if (plan_) {
+    rejects_ = rejects_ || plan_->task.size() < whole.size();
+    method_ = "closed form: " + plan_->plan.method();
+    return true;
+  }
+  parallel_ = parallelMethodFor(completed_.chain, whole);
+  if (parallel_) method_ = "closed form: " + parallel_->plan.method();
+  return parallel_.has_value();
+}
+
+std::optional<CompletedMethod> CompletedMethod::compile(const SerialChain& chain, const Task& task) {
+  const std::vector<CompletedChain> ways = completions(chain, task);
+  for (bool closed_form : {true, false}) {
+    for (const CompletedChain& way : ways) {
+      CompletedMethod method(chain, task, way);
+      if (!method.compileExact(closed_form)) continue;
+      if (way.turnsByItself()) {
+        method.method_ += "; " + chain.joint(way.turn).name + " turns the tool about its direction";
+      } else if (way.turn >= 0) {
+        method.method_ += "; the tool's turn about its direction is one joint more";
+      }
+      if (method.rejects_) method.method_ += "; the rows beyond the joints are checked";
+      return method;
+    }
+  }
+  return std::nullopt;
+}
+
+const std::vector<BranchPart>* CompletedMethod::branchParts() const {
+  if (plan_) return &plan_->plan.branchParts();
+  return parallel_ ? &parallel_->plan.branchParts() : nullptr;
+}
+
+std::vector<Candidate> CompletedMethod::wholeCandidates(const Pose& target, const VectorX& seed, bool doubted,
+                                                        bool& complete) const {
+  if (plan_) {
+    std::vector<Candidate> found = candidatesOf(*plan_, completed_.chain, target, seed);
+    complete = true;
+    return found;
+  }
+  if (parallel_) {
+    ParallelCandidates found = candidatesOf(*parallel_, completed_.chain, target, seed, doubted);
+    complete = found.complete;
+    return std::move(found.found);
+  }
+  AlgebraicSolutions roots;
+  algebraic_->solve(target, roots);
+  complete = roots.complete;
+  std::vector<Candidate> found;
+  for (const std::array<double, 6>& q : roots) {
+    found.emplace_back();
+    found.back().q = Eigen::Map<const VectorX>(q.data(), 6);
+  }
+  return found;
+}
+
+bool CompletedMethod::isLocked(const VectorX& q) const {
+  for (int i = 0; i < completed_.locked; ++i) {
+    if (std::abs(wrapAngle(q[completed_.own + i])) > kAlmostLocked) return false;
+  }
+  return true;
+}
+
+std::vector<Candidate> CompletedMethod::candidates(const Pose& target, const VectorX& seed, bool doubted,
+                                                   bool& complete) const {
+  VectorX whole_seed = VectorX::Zero(completed_.chain.size());
+  whole_seed.head(completed_.own) = seed;
+  std::vector<Candidate> result;
+  for (const Candidate& whole : wholeCandidates(target, whole_seed, doubted, complete)) {
+    const std::size_t dimension = whole.free.size() + (completed_.turnsByItself() ? 1 : 0);
+    // Of a continuum that needs joints to be unlocked, some members may be solutions: one start for these.
+    if (rejects_ && !whole.free.empty()) complete = false;
+    if (whole.free.empty() && !isLocked(whole.q)) continue;
+    VectorX q = whole.q.head(completed_.own);
+    if (rejects_) {
+      const TaskError error = polish(chain_, task_, target, q);
+      if (error.position > kSolutionTolerance || error.orientation > kSolutionTolerance) continue;
+    }
+    Candidate candidate = candidateAt(q);
+    candidate.branch = whole.branch;
+    candidate.merged = whole.merged;
+    if (!rejects_ && !whole.free.empty()) openSheet(target, dimension, candidate);
+    result.push_back(std::move(candidate));
+  }
+  return result;
+}
+
+/// Makes of a member of a continuum the continuum, by solutions next to solutions.
+void CompletedMethod::openSheet(const Pose& target, std::size_t dimension, Candidate& candidate) const {
+  candidate.describe = nullptr;
+  candidate.free = parameters(taskJacobian(chain_, candidate.q, task_), dimension);
+  const std::vector<int> held = candidate.free;
+  candidate.member = [this, target, held](const VectorX& preferred, VectorX& q) {
+    q = preferred;
+    return returned(chain_, task_, target, held, q);
+  };
+}
+
+Candidate CompletedMethod::candidateAt(const VectorX& q) const {
+  Candidate candidate;
+  candidate.q = q;
+  if (!completed_.turnsByItself()) return candidate;
+  candidate.free = {completed_.turn};
+  candidate.describe = [this, q](const VectorX& seed, bool ignore_limits) { return circle(q, seed, ignore_limits); };
+  return candidate;
+}
+
+Continuum CompletedMethod::circle(const VectorX& q, const VectorX& seed, bool ignore_limits) const {
+  const int turn = completed_.turn;
+  const JointLimits& limits = chain_.joint(turn).limits;
+  Continuum continuum;
+  continuum.nearest = nearestTurns(chain_, q, seed);
+  continuum.nearest[turn] = ignore_limits ? seed[turn] : std::clamp(seed[turn], limits.lower, limits.upper);
+  continuum.directions = MatrixX::Zero(1, chain_.size());
+  continuum.directions(0, turn) = 1.0;
+  continuum.free_joints = {turn};
+  const double value = continuum.nearest[turn];
+  // A full turn to both sides, as for any continuum.
+  continuum.lower = VectorX::Constant(1, std::min(value, std::max(limits.lower, value - kTwoPi)));
+  continuum.upper = VectorX::Constant(1, std::max(value, std::min(limits.upper, value + kTwoPi)));
+  return continuum;
+}
+
+}  // namespace screwline
