@@ -1,0 +1,67 @@
+#include "screwline/symbolic/inverse_document.h"
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace screwline {
+namespace {
+
+/// "A2, B2" of the lines' own symbols, "theta1" of joints.
+std::string nameIn(const InverseFormulas& formulas, int symbol, DocumentFormat format) {
+  const Symbol& known = formulas.symbols[symbol];
+  return format == DocumentFormat::kText ? known.brief : known.latex;
+}
+
+/// What happens where the line's radicand or the directions that it turns between vanish.
+void writeRemarks(const InverseStep& step, const DocumentWriter& writer, std::vector<std::string>& remarks) {
+  if (step.reach) {
+    remarks.push_back(writer.text("no solution where ") + writer.formula(step.radicand) +
+                      writer.text(" < 0: out of reach; both branches meet where it is zero"));
+  }
+  if (step.free_if.empty()) return;
+  std::string zeros;
+  for (const Formula& formula : step.free_if) {
+    if (formula.isZero()) continue;
+    zeros += (zeros.empty() ? "" : " = ") + writer.formula(formula);
+  }
+  remarks.push_back(writer.formula(Formula::symbol(step.symbol)) + writer.text(" may take any value where ") + zeros +
+                    " = 0");
+}
+
+}  // namespace
+
+std::string inverseSection(const InverseFormulas& formulas, DocumentFormat format) {
+  DocumentWriter writer(format, formulas.symbols);
+  int branches = 1;
+  for (const InverseStep& step : formulas.steps) branches *= step.sign >= 0 ? 2 : 1;
+  std::string intro = "Line by line, for the tip at " + writer.symbol("(px, py, pz)", "(p_x, p_y, p_z)") +
+                      writer.text(" with rotation entries ") + writer.symbol("r11 to r33", "r_{11} \\ldots r_{33}") +
+                      writer.text(" in the base link; each ") + writer.symbol("+-", "\\pm") +
+                      writer.text(" gives two branches, " + std::to_string(branches) + " solutions at most.");
+  writer.paragraph(intro);
+  std::vector<std::string> remarks;
+  for (const InverseStep& step : formulas.steps) {
+    if (!step.before.empty()) writer.paragraph(writer.text(step.before));
+    writer.equation(formulas.symbols[step.symbol].brief, nameIn(formulas, step.symbol, format), step.value);
+    writeRemarks(step, writer, remarks);
+  }
+  if (!remarks.empty()) {
+    writer.paragraph(writer.text("Conditions and degenerate cases:"));
+    writer.list(remarks);
+  }
+  return writer.body();
+}
+
+std::string sentenceOf(const InverseCheck& check) {
+  char worst[64];
+  std::snprintf(worst, sizeof worst, "%.1e", check.worst_task);
+  std::string text = "These formulas were worked off at " + std::to_string(check.poses) +
+                     " random reachable poses: " + std::to_string(check.solutions) + " solutions of the solver, " +
+                     std::to_string(check.missing) + " of them missing, " + std::to_string(check.extra) +
+                     " others; forward kinematics of each gives the pose within " + worst;
+  std::snprintf(worst, sizeof worst, "%.1e", check.worst_joint);
+  return text + ", joint values agree within " + worst + ".";
+}
+
+}  // namespace screwline
