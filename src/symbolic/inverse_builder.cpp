@@ -29,6 +29,22 @@ void collectSymbols(const Formula& formula, std::set<int>& found) {
   for (const Formula& part : formula.parts()) collectSymbols(part, found);
 }
 
+/// Of symbols' squares only: never negative.
+bool isSumOfSquares(const Formula& formula) {
+  if (formula.kind() == Formula::Kind::kNumber) return formula.numerator() >= 0;
+  if (formula.kind() == Formula::Kind::kPower) return formula.numerator() % 2 == 0;
+  const bool composed = formula.kind() == Formula::Kind::kSum || formula.kind() == Formula::Kind::kProduct;
+  return composed && std::all_of(formula.parts().begin(), formula.parts().end(), isSumOfSquares);
+}
+
+Symbol plusOrMinus(const std::string& name, const char* brief, const char* latex) {
+  Symbol symbol;
+  symbol.name = name;
+  symbol.brief = brief;
+  symbol.latex = latex;
+  return symbol;
+}
+
 void collectSymbols(const InverseStep& step, std::set<int>& found) {
   collectSymbols(step.value, found);
   collectSymbols(step.radicand, found);
@@ -198,14 +214,31 @@ TrigPolynomial InverseBuilder::named(const std::string& name, const TrigPolynomi
 
 TrigPolynomial InverseBuilder::root(const std::string& name, const TrigPolynomial& radicand) {
   const auto place = std::find(kResults.begin(), kResults.end(), name) - kResults.begin();
+  const int id = heading_ + 1 + static_cast<int>(place);
+  addRoot(id, inputsFirst(radicand));
+  return symbol(id);
+}
+
+void InverseBuilder::addRoot(int id, const Formula& radicand) {
+  const bool only_sign = radicand.isNumber(1);
+  const std::string name = "sign" + std::to_string(++signs_);
   InverseStep step;
-  step.symbol = heading_ + 1 + static_cast<int>(place);
-  step.radicand = formula(radicand);
-  step.reach = true;
-  step.sign = addSymbol("sign" + std::to_string(++signs_));
-  step.value = Formula::symbol(step.sign) * Formula::sqrt(step.radicand);
-  addStep(step);
-  return symbol(step.symbol);
+  step.symbol = id;
+  step.radicand = radicand;
+  step.reach = !isSumOfSquares(radicand);
+  step.sign = exact_.table.symbols.add(plusOrMinus(name, only_sign ? "+-1" : "+-", only_sign ? "\\pm 1" : "\\pm"));
+  const Formula sign = Formula::symbol(step.sign);
+  step.value = only_sign ? sign : sign * Formula::sqrt(radicand);
+  addStep(std::move(step));
+}
+
+Formula InverseBuilder::inputsFirst(const TrigPolynomial& polynomial) const {
+  TrigPolynomial constant(ring());
+  for (const auto& [key, coefficient] : polynomial.terms()) {
+    const TrigPolynomial term = TrigPolynomial::term(ring(), key, coefficient);
+    if (isConstant(term)) constant += term;
+  }
+  return formula(polynomial - constant) + formula(constant);
 }
 
 Formula InverseBuilder::formulaNamed(const std::string& name, const Formula& value) {
@@ -217,24 +250,22 @@ Formula InverseBuilder::formulaNamed(const std::string& name, const Formula& val
   return result;
 }
 
-Formula InverseBuilder::rootNamed(const std::string& name, const Formula& radicand, bool reach) {
-  InverseStep step;
-  step.symbol = addSymbol(name);
-  step.radicand = radicand;
-  step.reach = reach;
-  step.sign = addSymbol("sign" + std::to_string(++signs_));
-  step.value =
-      Formula::symbol(step.sign) * (radicand.isNumber(1) ? Formula::number(1) : Formula::sqrt(step.radicand));
-  const Formula result = Formula::symbol(step.symbol);
-  addStep(std::move(step));
-  return result;
+Formula InverseBuilder::rootNamed(const std::string& name, const Formula& radicand) {
+  const int id = addSymbol(name);
+  addRoot(id, radicand);
+  return Formula::symbol(id);
 }
 
-void InverseBuilder::setJoint(int symbol, const Formula& value, std::vector<Formula> free_if) {
+void InverseBuilder::setJoint(int symbol, const Formula& value, const std::vector<Formula>& free_if) {
   InverseStep step;
   step.symbol = symbol;
   step.value = value;
-  step.free_if = std::move(free_if);
+  // "wz" says as much as "-wz".
+  const auto isNegated = [](const Formula& formula) {
+    return formula.kind() == Formula::Kind::kProduct && formula.parts().front().kind() == Formula::Kind::kNumber &&
+           formula.parts().front().numerator() < 0;
+  };
+  for (const Formula& formula : free_if) step.free_if.push_back(isNegated(formula) ? -formula : formula);
   addStep(std::move(step));
 }
 

@@ -62,8 +62,10 @@ class InverseBuilder {
   TrigPolynomial root(const std::string& name, const TrigPolynomial& radicand);
   /// A line of formulas only: its symbol is not for polynomials.
   Formula formulaNamed(const std::string& name, const Formula& value);
-  Formula rootNamed(const std::string& name, const Formula& radicand, bool reach);
+  Formula rootNamed(const std::string& name, const Formula& radicand);
+  void addRoot(int id, const Formula& radicand);  ///< A line id = +- sqrt(radicand).
   Formula formula(const TrigPolynomial& polynomial) const { return exact_.formula(polynomial); }
+  Formula inputsFirst(const TrigPolynomial& polynomial) const;  ///< The same, what is constant at its end.
 
   /// Solves equation = 0 for a joint; false where that takes more than a square root.
   bool solve(const InverseAxis& axis, const TrigPolynomial& equation);
@@ -74,7 +76,7 @@ class InverseBuilder {
   /// the third axis has to point.
   bool solveMiddle(const InverseAxis& axis, const TrigMatrix& column, const TrigPolynomial& height);
   /// A line for a joint. Where all of `free_if` are zero, any value does.
-  void setJoint(int symbol, const Formula& value, std::vector<Formula> free_if = {});
+  void setJoint(int symbol, const Formula& value, const std::vector<Formula>& free_if = {});
   std::string suffix(const InverseAxis& axis) const;
 
   /// Leaves out lines that nothing needs.

@@ -1,6 +1,7 @@
 #include "screwline/symbolic/inverse_document.h"
 
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,29 @@ std::string nameIn(const InverseFormulas& formulas, int symbol, DocumentFormat f
   return format == DocumentFormat::kText ? known.brief : known.latex;
 }
 
+/// D of 1 - D^2.
+std::optional<Formula> ratioOf(const Formula& radicand) {
+  if (radicand.kind() != Formula::Kind::kSum || radicand.parts().size() != 2) return std::nullopt;
+  const Formula& square = radicand.parts().front();
+  if (!radicand.parts().back().isNumber(1) || square.kind() != Formula::Kind::kProduct || square.parts().size() != 2 ||
+      !square.parts().front().isNumber(-1) || square.parts().back().kind() != Formula::Kind::kPower ||
+      square.parts().back().parts().front().kind() != Formula::Kind::kSymbol)
+    return std::nullopt;
+  return square.parts().back().parts().front();
+}
+
 /// What happens where the line's radicand or the directions that it turns between vanish.
-void writeRemarks(const InverseStep& step, const DocumentWriter& writer, std::vector<std::string>& remarks) {
+void writeRemarks(const InverseFormulas& formulas, const InverseStep& step, const DocumentWriter& writer, std::vector<std::string>& remarks) {
   if (step.reach) {
-    remarks.push_back(writer.text("no solution where ") + writer.formula(step.radicand) +
-                      writer.text(" < 0: out of reach; both branches meet where it is zero"));
+    const std::optional<Formula> ratio = ratioOf(step.radicand);
+    std::string beyond = writer.formula(step.radicand) + writer.text(" < 0");
+    if (ratio) {
+      const Symbol& D = formulas.symbols[ratio->symbolId()];
+      beyond = writer.symbol("|" + D.brief + "| > 1", "|" + D.latex + "| > 1");
+    }
+    remarks.push_back(writer.text("no solution (out of reach) where ") + beyond +
+                      writer.text("; two branches meet where ") +
+                      (ratio ? writer.text("it is 1") : writer.text("it is zero")));
   }
   if (step.free_if.empty()) return;
   std::string zeros;
@@ -44,7 +63,7 @@ std::string inverseSection(const InverseFormulas& formulas, DocumentFormat forma
   for (const InverseStep& step : formulas.steps) {
     if (!step.before.empty()) writer.paragraph(writer.text(step.before));
     writer.equation(formulas.symbols[step.symbol].brief, nameIn(formulas, step.symbol, format), step.value);
-    writeRemarks(step, writer, remarks);
+    writeRemarks(formulas, step, writer, remarks);
   }
   if (!remarks.empty()) {
     writer.paragraph(writer.text("Conditions and degenerate cases:"));

@@ -44,7 +44,7 @@ bool InverseBuilder::solveMiddle(const InverseAxis& axis, const TrigMatrix& colu
   if (!by_cosine && !by_sine) return solve(axis, height - column(2, 0));
   const TrigPolynomial along = by_cosine ? parts.a * column(2, 0) : parts.b * column(2, 0);
   const Formula across = formula(column(0, 0) * column(0, 0) + column(1, 0) * column(1, 0));
-  const Formula S = rootNamed("S" + suffix(axis), across, false);
+  const Formula S = rootNamed("S" + suffix(axis), across);
   const Formula C = formula(along);
   setJoint(axis.symbol,
            Formula::call(FormulaFunction::kArcTangent2,

@@ -61,7 +61,7 @@ bool InverseBuilder::solveTurn(const InverseAxis& axis, const Parts& parts) {
   const std::string j = suffix(axis);
   const bool constant = isConstant(parts.a) && isConstant(parts.b);
   if (isZero(parts.k)) {
-    const Formula S = rootNamed("S" + j, Formula::number(1), false);
+    const Formula S = rootNamed("S" + j, Formula::number(1));
     const Formula a = no_a ? Formula::number(0) : constant && no_b ? Formula::number(1) : formula(parts.a);
     const Formula b = no_b ? Formula::number(0) : constant && no_a ? Formula::number(1) : formula(parts.b);
     const std::vector<Formula> free_if = constant ? std::vector<Formula>() : std::vector<Formula>{a, b};
@@ -71,18 +71,18 @@ bool InverseBuilder::solveTurn(const InverseAxis& axis, const Parts& parts) {
   if (no_a || no_b) {
     const TrigPolynomial& amplitude = no_b ? parts.a : parts.b;
     const bool flip = startsNegative(amplitude);
-    const Formula above = formula(flip ? parts.k : -parts.k);
+    const Formula above = inputsFirst(flip ? parts.k : -parts.k);
     const Formula below = formula(flip ? -amplitude : amplitude);
     const Formula D = formulaNamed("D" + j, above / below);
-    const Formula S = rootNamed("S" + j, Formula::number(1) - square(D), true);
+    const Formula S = rootNamed("S" + j, Formula::number(1) - square(D));
     const std::vector<Formula> free_if = constant ? std::vector<Formula>() : std::vector<Formula>{above, below};
     setJoint(axis.symbol, no_b ? arcTangent(S, D) : arcTangent(D, S), free_if);
     return true;
   }
   const Formula A = formulaNamed("A" + j, formula(parts.a));
   const Formula B = formulaNamed("B" + j, formula(parts.b));
-  const Formula C = formulaNamed("C" + j, formula(-parts.k));
-  const Formula S = rootNamed("S" + j, square(A) + square(B) - square(C), true);
+  const Formula C = formulaNamed("C" + j, inputsFirst(-parts.k));
+  const Formula S = rootNamed("S" + j, square(A) + square(B) - square(C));
   const std::vector<Formula> free_if = constant ? std::vector<Formula>() : std::vector<Formula>{A, B};
   setJoint(axis.symbol, arcTangent(B, A) + arcTangent(S, C), free_if);
   return true;
@@ -102,12 +102,16 @@ bool InverseBuilder::solveSlide(const InverseAxis& axis, const Parts& parts) {
   if (parts.b == one || parts.b == -one) {
     const Rational sign = parts.b == one ? 1 : -1;
     const TrigPolynomial half = parts.a.scaled(sign * Rational(1, 2));
-    const Formula S = rootNamed("S" + j, formula(half * half - parts.k.scaled(sign)), true);
-    setJoint(axis.symbol, S - formula(half));
+    const Formula radicand = inputsFirst(half * half - parts.k.scaled(sign));
+    if (half.isZero()) {
+      addRoot(axis.symbol, radicand);
+    } else {
+      setJoint(axis.symbol, rootNamed("S" + j, radicand) - formula(half));
+    }
     return true;
   }
   const TrigPolynomial radicand = parts.a * parts.a - (parts.b * parts.k).scaled(4);
-  const Formula S = rootNamed("S" + j, formula(radicand), true);
+  const Formula S = rootNamed("S" + j, inputsFirst(radicand));
   setJoint(axis.symbol, (S - formula(parts.a)) / formula(parts.b.scaled(2)));
   return true;
 }
@@ -134,12 +138,10 @@ void InverseBuilder::turnBetween(const InverseAxis& axis, const TrigPolynomial& 
   } else {
     u = arcTangent(ty, tx) - arcTangent(fy, fx);
   }
+  // Both directions vanish together; the one that is not along a coordinate axis tells more.
   std::vector<Formula> free_if;
-  if (!isConstant(to_x) || !isConstant(to_y)) {
-    free_if = {tx, ty};
-  } else if (!isConstant(from_x) || !isConstant(from_y)) {
-    free_if = {fx, fy};
-  }
+  const bool one_sided = (isZero(to_x) || isZero(to_y)) && !isZero(from_x) && !isZero(from_y);
+  if (!isConstant(to_x) || !isConstant(to_y)) free_if = one_sided ? std::vector<Formula>{fx, fy} : std::vector<Formula>{tx, ty};
   setJoint(axis.symbol, axis.sense < 0 ? -u : u, free_if);
 }
 
