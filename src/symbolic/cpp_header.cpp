@@ -140,6 +140,8 @@ class HeaderMaker {
     line("  const double rest = std::remainder(angle, 2.0 * kPi);");
     line("  return rest <= -kPi ? kPi : rest;");
     line("}\n");
+    line("/// [m] What is smaller is rounding.");
+    line("constexpr double kTiny = " + cppNumber(1e-12 * std::max(1.0, inverse_->length)) + ";\n");
     line("/// Of a sum; 0 where that is rounding, -1 where it is negative.");
     line("inline double squareRoot(std::initializer_list<double> terms) {");
     line("  double sum = 0.0;");
@@ -148,11 +150,11 @@ class HeaderMaker {
     line("    sum += term;");
     line("    scale += std::abs(term);");
     line("  }");
-    line("  if (!(sum >= -1e-12 * scale)) return -1.0;");
-    line("  return sum <= 1e-14 * scale ? 0.0 : std::sqrt(sum);");
+    line("  if (!(sum >= -1e-12 * scale - square(kTiny))) return -1.0;");
+    line("  return sum <= 1e-14 * scale + square(kTiny) ? 0.0 : std::sqrt(sum);");
     line("}\n");
     line("inline bool isZero(double x) {");
-    line("  return std::abs(x) <= " + cppNumber(1e-12 * std::max(1.0, inverse_->length)) + ";");
+    line("  return std::abs(x) <= kTiny;");
     line("}\n");
     writeAdd();
   }

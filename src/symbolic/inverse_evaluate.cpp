@@ -62,8 +62,9 @@ class Branches {
       radicand += value;
       scale += std::abs(value);
     }
-    if (!(radicand >= -kBeyond * scale)) return;
-    const double root = radicand <= kDouble * scale ? 0.0 : std::sqrt(radicand);
+    const double tiny = kFree * std::max(1.0, formulas_.length);
+    if (!(radicand >= -kBeyond * scale - tiny * tiny)) return;
+    const double root = radicand <= kDouble * scale + tiny * tiny ? 0.0 : std::sqrt(radicand);
     for (const double sign : {1.0, -1.0}) {
       if (root == 0.0 && sign < 0.0) break;
       set(step.symbol, sign * root);

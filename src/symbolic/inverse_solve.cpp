@@ -73,10 +73,16 @@ bool InverseBuilder::solveTurn(const InverseAxis& axis, const Parts& parts) {
     const bool flip = startsNegative(amplitude);
     const Formula above = inputsFirst(flip ? parts.k : -parts.k);
     const Formula below = formula(flip ? -amplitude : amplitude);
+    if (!constant) {  // No division by what may vanish.
+      const Formula S = rootNamed("S" + j, square(below) - square(above));
+      const Formula across = below * S;
+      const Formula along = below * above;
+      setJoint(axis.symbol, no_b ? arcTangent(across, along) : arcTangent(along, across), {above, below});
+      return true;
+    }
     const Formula D = formulaNamed("D" + j, above / below);
     const Formula S = rootNamed("S" + j, Formula::number(1) - square(D));
-    const std::vector<Formula> free_if = constant ? std::vector<Formula>() : std::vector<Formula>{above, below};
-    setJoint(axis.symbol, no_b ? arcTangent(S, D) : arcTangent(D, S), free_if);
+    setJoint(axis.symbol, no_b ? arcTangent(S, D) : arcTangent(D, S));
     return true;
   }
   const Formula A = formulaNamed("A" + j, formula(parts.a));
