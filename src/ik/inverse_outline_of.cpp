@@ -12,4 +12,16 @@ std::optional<InverseOutline> inverseOutlineOf(const SerialChain& chain, const T
   return std::nullopt;
 }
 
+std::function<std::vector<VectorX>(const Pose&)> everySolution(const InverseKinematics& ik) {
+  return [&ik](const Pose& target) {
+    IkRequest request;
+    request.target = target;
+    request.ignore_limits = true;
+    request.find_closest = false;
+    std::vector<VectorX> all;
+    for (const IkAnswer& answer : ik.solve(request).solutions) all.push_back(answer.position);
+    return all;
+  };
+}
+
 }  // namespace screwline

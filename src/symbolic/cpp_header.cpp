@@ -49,7 +49,7 @@ class HeaderMaker {
   void writeHead() {
     head_ = "// Kinematics of " + cppIdentifier(chain_.name()) + " from " + cppIdentifier(chain_.baseLink()) + " to " +
             cppIdentifier(chain_.tipLink()) +
-            ", derived by screwline. Units m and rad. Needs a C++17 compiler and its standard library.\n";
+            ".\n// Derived by screwline. Units m and rad. Needs a C++17 compiler and its standard library.\n";
     line("#include <array>");
     line("#include <cmath>");
     line(inverse_ ? "#include <vector>\n" : "");
@@ -131,7 +131,9 @@ class HeaderMaker {
   }
 
   void writeHelpers() {
-    line("/// Where a joint may take any value (its bit of `free` is set) it has the preferred one; others follow from it.");
+    line(
+        "/// Where a joint may take any value (its bit of `free` is set) it has the preferred one; others follow from "
+        "it.");
     line("struct Solution {");
     line("  Joints q{};");
     line("  unsigned free = 0;");
@@ -178,7 +180,9 @@ class HeaderMaker {
 
   void writeInverse() {
     writeHelpers();
-    line("/// All solutions for the task's rows of the target, joint limits not looked at; none where it is out of reach.");
+    line(
+        "/// All solutions for the task's rows of the target, joint limits not looked at; none where it is out of "
+        "reach.");
     line("inline std::vector<Solution> inverse(const Pose& target, const Joints& preferred = {}) {");
     ++depth_;
     writer_.beginFunction();

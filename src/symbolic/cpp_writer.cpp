@@ -67,14 +67,23 @@ std::string cppIdentifier(const std::string& name) {
 
 /// What the header itself uses, and short words of the language that a name could be.
 CppWriter::CppWriter(const SymbolTable& symbols)
-    : symbols_(symbols),
-      taken_({"X", "J", "q", "p", "R", "target", "preferred", "solutions", "free", "do", "if", "or", "and", "not", "int",
-              "new", "for", "try", "std", "xor", "asm", "y0", "y1", "j0", "j1", "yn", "jn"}) {}
+    : symbols_(symbols), taken_({"X",   "J",   "q",   "p",   "R",   "target", "preferred", "solutions", "free",
+                                 "do",  "if",  "or",  "and", "not", "int",    "new",       "for",       "try",
+                                 "std", "xor", "asm", "y0",  "y1",  "j0",     "j1",        "yn",        "jn"}) {}
 
 std::string CppWriter::fresh(const std::string& wanted) {
-  std::string name = cppIdentifier(wanted);
-  while (!taken_.insert(name).second) name += '_';
+  const std::string stem = cppIdentifier(wanted);
+  std::string name = stem;
+  for (int number = 2; taken_.count(name) > 0 || local_.count(name) > 0; ++number)
+    name = stem + "_" + std::to_string(number);
+  (in_function_ ? local_ : taken_).insert(name);
   return name;
+}
+
+void CppWriter::beginFunction() {
+  in_function_ = true;
+  local_.clear();
+  circulars_.clear();
 }
 
 std::string CppWriter::declare(int symbol, const std::string& wanted) {
@@ -112,8 +121,7 @@ std::string CppWriter::write(const Formula& formula, int needed) const {
   switch (formula.kind()) {
     case Kind::kNumber:
       binding = formula.numerator() < 0 ? kLowest : formula.denominator() == 1 ? kAtom : kProduct;
-      text = integer(formula.numerator()) +
-             (formula.denominator() == 1 ? "" : " / " + integer(formula.denominator()));
+      text = integer(formula.numerator()) + (formula.denominator() == 1 ? "" : " / " + integer(formula.denominator()));
       break;
     case Kind::kDecimal:
       binding = formula.decimalValue() < 0.0 ? kLowest : kAtom;

@@ -32,11 +32,11 @@ class CppWriter {
   /// Declarations, a line each, of sines and cosines in the formula that were not declared yet.
   std::vector<std::string> declarations(const Formula& formula);
   std::string expression(const Formula& formula) const { return write(formula, kLowest); }
-  /// Forgets the sines and cosines that were declared, as a new function begins.
-  void beginFunction() { circulars_.clear(); }
+  /// Forgets the sines, cosines and names that were declared since the last function began.
+  void beginFunction();
 
  private:
-  static constexpr int kLowest = 0;   // Sums.
+  static constexpr int kLowest = 0;  // Sums.
   static constexpr int kProduct = 1;
   static constexpr int kAtom = 2;
 
@@ -50,6 +50,8 @@ class CppWriter {
   const SymbolTable& symbols_;
   std::map<int, std::string> names_;
   std::set<std::string> taken_;
+  std::set<std::string> local_;  ///< The same, within the present function.
+  bool in_function_ = false;
   std::map<std::string, std::string> circulars_;  ///< By the call in infix.
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 /// What polynomials may have in them besides the target and the joints: a point, distances, entries of a rotation, a
 /// direction, a place in a plane, open rows.
-constexpr std::array<const char*, 20> kResults = {"wx",  "wy",  "wz",  "f",   "u",  "v",  "m11", "m12", "m13", "m21",
+constexpr std::array<const char*, 20> kResults = {"wx",  "wy",  "wz",  "f",   "u",   "v",  "m11", "m12", "m13", "m21",
                                                   "m22", "m23", "m31", "m32", "m33", "hx", "hy",  "hz",  "o1",  "o2"};
 
 Symbol input(const std::string& name) {

@@ -12,12 +12,12 @@ namespace screwline {
 
 /// An axis of one of the small problems: what it does is Z J Z^-1, with J about or along z.
 struct InverseAxis {
-  TrigPose Z;       ///< A frame on it, in the base link, at zero joint values.
-  int joint = -1;   ///< -1: an open row of the task.
-  int symbol = 0;   ///< Of its value.
+  TrigPose Z;      ///< A frame on it, in the base link, at zero joint values.
+  int joint = -1;  ///< -1: an open row of the task.
+  int symbol = 0;  ///< Of its value.
   bool slides = false;
-  int sense = 1;    ///< -1 where it is taken from the tip to the base.
-  Axis line;        ///< The same in numbers.
+  int sense = 1;  ///< -1 where it is taken from the tip to the base.
+  Axis line;      ///< The same in numbers.
 };
 
 /// Writes lines of an inverse solution. Polynomials stay exact; a line's result is a symbol that later polynomials can
@@ -37,15 +37,15 @@ class InverseBuilder {
   TrigPose motion(const InverseAxis& axis) const;
   TrigPose constantStep(int i) const;  ///< Frame i + 1 in frame i at zero, i = 0..n: the tip the last.
   TrigPose step(int i) const { return exact_.steps[static_cast<std::size_t>(i)]; }
-  TrigPose zeroFrame(int frame) const;  ///< Of the table, in the base link, at zero; n + 1: the tip.
+  TrigPose zeroFrame(int frame) const;          ///< Of the table, in the base link, at zero; n + 1: the tip.
   TrigPolynomial offsetAlong(int joint) const;  ///< d of a revolute joint's row.
   ExactAngle offsetAbout(int joint) const;      ///< Constant part of theta.
   TrigMatrix rotationAboutZ(const ExactAngle& angle) const;
   TrigPose shiftAlongZ(const TrigPolynomial& length) const;
   TrigPose identity() const;
 
-  TrigMatrix targetPoint() const;     ///< 3 x 1
-  TrigMatrix targetRotation() const;  ///< 3 x 3
+  TrigMatrix targetPoint() const;           ///< 3 x 1
+  TrigMatrix targetRotation() const;        ///< 3 x 3
   int heading() const { return heading_; }  ///< The symbol phi.
 
   /// Whether it has neither joints nor inputs in it; then its value.

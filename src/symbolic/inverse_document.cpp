@@ -26,7 +26,8 @@ std::optional<Formula> ratioOf(const Formula& radicand) {
 }
 
 /// What happens where the line's radicand or the directions that it turns between vanish.
-void writeRemarks(const InverseFormulas& formulas, const InverseStep& step, const DocumentWriter& writer, std::vector<std::string>& remarks) {
+void writeRemarks(const InverseFormulas& formulas, const InverseStep& step, const DocumentWriter& writer,
+                  std::vector<std::string>& remarks) {
   if (step.reach) {
     const std::optional<Formula> ratio = ratioOf(step.radicand);
     std::string beyond = writer.formula(step.radicand) + writer.text(" < 0");
@@ -69,18 +70,22 @@ std::string inverseSection(const InverseFormulas& formulas, DocumentFormat forma
     writer.paragraph(writer.text("Conditions and degenerate cases:"));
     writer.list(remarks);
   }
-  return writer.body();
+  const std::string body = writer.body();
+  return body.substr(0, body.find_last_not_of('\n') + 1);
 }
 
 std::string sentenceOf(const InverseCheck& check) {
-  char worst[64];
-  std::snprintf(worst, sizeof worst, "%.1e", check.worst_task);
-  std::string text = "These formulas were worked off at " + std::to_string(check.poses) +
-                     " random reachable poses: " + std::to_string(check.solutions) + " solutions of the solver, " +
-                     std::to_string(check.missing) + " of them missing, " + std::to_string(check.extra) +
-                     " others; forward kinematics of each gives the pose within " + worst;
-  std::snprintf(worst, sizeof worst, "%.1e", check.worst_joint);
-  return text + ", joint values agree within " + worst + ".";
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1e", value);
+    return std::string(text);
+  };
+  return "Worked off at " + std::to_string(check.poses) + " random reachable poses, these lines gave " +
+         (check.agrees() ? "the " + std::to_string(check.solutions) + " solutions that the numeric solver finds"
+                         : std::to_string(check.extra) + " solutions that the numeric solver does not find, and not " +
+                               std::to_string(check.missing) + " of its " + std::to_string(check.solutions)) +
+         ": forward kinematics of each returns the pose within " + number(check.worst_task) +
+         ", joint values agree within " + number(check.worst_joint) + ".";
 }
 
 }  // namespace screwline

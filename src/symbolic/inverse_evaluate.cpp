@@ -43,11 +43,10 @@ class Branches {
     const InverseStep& step = formulas_.steps[line];
     if (step.sign >= 0) return branch(step, line, free);
     const bool is_joint = step.symbol < formulas_.joints;
-    const bool is_free =
-        is_joint && !step.free_if.empty() &&
-        std::all_of(step.free_if.begin(), step.free_if.end(), [&](const Formula& formula) {
-          return std::abs(formula.evaluate(values_)) <= kFree * std::max(1.0, formulas_.length);
-        });
+    const bool is_free = is_joint && !step.free_if.empty() &&
+                         std::all_of(step.free_if.begin(), step.free_if.end(), [&](const Formula& formula) {
+                           return std::abs(formula.evaluate(values_)) <= kFree * std::max(1.0, formulas_.length);
+                         });
     set(step.symbol, is_free ? preferred_[step.symbol] : step.value.evaluate(values_));
     follow(line + 1, is_free ? free | 1U << step.symbol : free);
   }

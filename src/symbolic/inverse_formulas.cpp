@@ -36,8 +36,7 @@ bool writeSpherical(InverseBuilder& builder, const InverseOutline& outline) {
   const TrigMatrix R = builder.targetRotation();
   const TrigMatrix p = builder.targetPoint();
   const bool is_wrist = outline.shape == InverseShape::kWrist;
-  const TrigMatrix goal = is_wrist ? R * times(home.inverse(), center) + p
-                                   : times(home, R.transposed() * (center - p));
+  const TrigMatrix goal = is_wrist ? R * times(home.inverse(), center) + p : times(home, R.transposed() * (center - p));
   builder.say(is_wrist ? "The wrist's centre, seen from the first axis:"
                        : "The shoulder's centre, seen from the tip and turned into the axes at zero:");
   if (!writePosition(builder, positionAxes(builder, Task(), outline), center, goal)) return false;
@@ -53,8 +52,8 @@ bool writeHeading(InverseBuilder& builder, const Task& task, const InverseOutlin
   const int y = (outline.heading_row + 2) % 3;
   const TrigMatrix turned = builder.targetRotation() * home.R.transposed();
   builder.say("The heading:");
-  builder.setJoint(builder.heading(), Formula::call(FormulaFunction::kArcTangent2, {builder.formula(turned(y, x)),
-                                                                                   builder.formula(turned(x, x))}));
+  builder.setJoint(builder.heading(), Formula::call(FormulaFunction::kArcTangent2,
+                                                    {builder.formula(turned(y, x)), builder.formula(turned(x, x))}));
   if (outline.has_position) {
     const TrigMatrix start = builder.zeroFrame(outline.heading_joint + 1).p;
     const TrigMatrix lever = home.p - start;
@@ -105,6 +104,27 @@ std::optional<InverseFormulas> inverseFormulasOf(const SerialChain& chain, const
   InverseBuilder builder(chain, options, progress);
   if (!writePlan(builder, task, outline)) return std::nullopt;
   return builder.finished();
+}
+
+InverseDerivation deriveInverse(const SerialChain& chain, const Task& task,
+                                const std::optional<InverseOutline>& outline, const InverseSolver& solver, int poses,
+                                const SymbolicOptions& options, const Progress& progress) {
+  InverseDerivation derivation;
+  if (!outline) {
+    derivation.reason = "no formulas: the solver has no closed form for this geometry and task";
+    return derivation;
+  }
+  derivation.formulas = inverseFormulasOf(chain, task, *outline, options, progress);
+  if (!derivation.formulas) {
+    derivation.reason = "no formulas: a step of the solver's closed form takes more than a square root";
+    return derivation;
+  }
+  if (!solver) return derivation;
+  derivation.check = checkInverse(*derivation.formulas, chain, task, solver, poses);
+  if (derivation.check.agrees() && derivation.check.worst_task <= kInverseAgreement) return derivation;
+  derivation.formulas.reset();
+  derivation.reason = "no formulas: those of the ideal geometry do not hold for this chain's numbers";
+  return derivation;
 }
 
 }  // namespace screwline

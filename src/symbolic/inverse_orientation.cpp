@@ -15,8 +15,7 @@ bool isUnit(const InverseBuilder& builder, const TrigPolynomial& polynomial) {
 
 TrigMatrix nameEntries(InverseBuilder& builder, TrigMatrix M) {
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j)
-      M(i, j) = builder.named("m" + std::to_string(i + 1) + std::to_string(j + 1), M(i, j));
+    for (int j = 0; j < 3; ++j) M(i, j) = builder.named("m" + std::to_string(i + 1) + std::to_string(j + 1), M(i, j));
   }
   return M;
 }
@@ -46,9 +45,8 @@ bool InverseBuilder::solveMiddle(const InverseAxis& axis, const TrigMatrix& colu
   const Formula across = formula(column(0, 0) * column(0, 0) + column(1, 0) * column(1, 0));
   const Formula S = rootNamed("S" + suffix(axis), across);
   const Formula C = formula(along);
-  setJoint(axis.symbol,
-           Formula::call(FormulaFunction::kArcTangent2,
-                         by_cosine ? std::vector<Formula>{S, C} : std::vector<Formula>{C, S}));
+  setJoint(axis.symbol, Formula::call(FormulaFunction::kArcTangent2,
+                                      by_cosine ? std::vector<Formula>{S, C} : std::vector<Formula>{C, S}));
   return true;
 }
 

@@ -15,8 +15,7 @@ class ParallelWriter {
  public:
   ParallelWriter(InverseBuilder& builder, const InverseOutline& outline)
       : builder_(builder), outline_(outline), home_(builder.zeroFrame(7)), target_(builder.identity()) {
-    for (int i = 0; i < 6; ++i)
-      axes_.push_back(outline.reversed ? builder.axis(5 - i, -1) : builder.axis(i, 1));
+    for (int i = 0; i < 6; ++i) axes_.push_back(outline.reversed ? builder.axis(5 - i, -1) : builder.axis(i, 1));
     const TrigPose tip = {builder.targetRotation(), builder.targetPoint()};
     const TrigPose all = tip * home_.inverse();
     target_ = outline.reversed ? all.inverse() : all;

@@ -147,7 +147,8 @@ void InverseBuilder::turnBetween(const InverseAxis& axis, const TrigPolynomial& 
   // Both directions vanish together; the one that is not along a coordinate axis tells more.
   std::vector<Formula> free_if;
   const bool one_sided = (isZero(to_x) || isZero(to_y)) && !isZero(from_x) && !isZero(from_y);
-  if (!isConstant(to_x) || !isConstant(to_y)) free_if = one_sided ? std::vector<Formula>{fx, fy} : std::vector<Formula>{tx, ty};
+  if (!isConstant(to_x) || !isConstant(to_y))
+    free_if = one_sided ? std::vector<Formula>{fx, fy} : std::vector<Formula>{tx, ty};
   setJoint(axis.symbol, axis.sense < 0 ? -u : u, free_if);
 }
 

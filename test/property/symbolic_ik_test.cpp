@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "golden.h"
-#include "screwline/ik/inverse_kinematics.h"
 #include "screwline/ik/inverse_outline_of.h"
 #include "screwline/ik/task_error.h"
 #include "screwline/kinematics/forward.h"
@@ -19,33 +18,22 @@ namespace screwline {
 namespace {
 
 constexpr int kPoses = 100;
-constexpr double kTask = 1e-12;   // [rad, chain's lengths]
-constexpr double kJoint = 1e-9;   // [rad, m]
+constexpr double kTask = 1e-12;  // [rad, chain's lengths]
+constexpr double kJoint = 1e-9;  // [rad, m]
 
 const std::vector<std::string>& written() {
   static const std::vector<std::string> names = {
-      "rr_planar",       "rrr_planar",   "planar_3r",  "rrr_articulated", "rrr_orthogonal", "rrp_spherical",
-      "rrp_offset",      "rpp_cylindrical", "spherical_wrist", "orienting_3r", "scara",     "scara_600",
-      "prrr_arm",        "prrr_column",  "rrprrr",     "puma560",         "stanford_arm",   "kr6_r900",
-      "irb6640",         "m10ia",        "ur5",        "ur10e"};
+      "rr_planar",     "rrr_planar",   "planar_3r",       "rrr_articulated", "rrr_orthogonal",
+      "rrp_spherical", "rrp_offset",   "rpp_cylindrical", "spherical_wrist", "orienting_3r",
+      "scara",         "scara_600",    "prrr_arm",        "prrr_column",     "rrprrr",
+      "puma560",       "stanford_arm", "kr6_r900",        "irb6640",         "m10ia",
+      "ur5",           "ur10e"};
   return names;
 }
 
 std::optional<InverseFormulas> formulasOf(const SerialChain& chain, const Task& task) {
   const std::optional<InverseOutline> outline = inverseOutlineOf(chain, task);
   return outline ? inverseFormulasOf(chain, task, *outline) : std::nullopt;
-}
-
-InverseSolver solverOf(const InverseKinematics& ik) {
-  return [&ik](const Pose& target) {
-    IkRequest request;
-    request.target = target;
-    request.ignore_limits = true;
-    request.find_closest = false;
-    std::vector<VectorX> all;
-    for (const IkAnswer& answer : ik.solve(request).solutions) all.push_back(answer.position);
-    return all;
-  };
 }
 
 double difference(const SerialChain& chain, const VectorX& a, const VectorX& b) {
@@ -62,7 +50,7 @@ TEST(SymbolicInverse, FormulasOfShippedRobotsGiveTheSolversSolutions) {
     const std::optional<InverseFormulas> formulas = formulasOf(robot.chain, robot.task);
     ASSERT_TRUE(formulas.has_value());
     const InverseKinematics ik(robot.chain, robot.task);
-    const InverseCheck check = checkInverse(*formulas, robot.chain, robot.task, solverOf(ik), kPoses);
+    const InverseCheck check = checkInverse(*formulas, robot.chain, robot.task, everySolution(ik), kPoses);
     EXPECT_EQ(check.poses, kPoses);
     EXPECT_GE(check.solutions, kPoses);
     EXPECT_TRUE(check.agrees()) << check.missing << " missing, " << check.extra << " extra of " << check.solutions;
@@ -120,7 +108,7 @@ TEST(SymbolicInverse, TheCheckCanFail) {
   const std::optional<InverseFormulas> formulas = formulasOf(robot.chain, robot.task);
   ASSERT_TRUE(formulas.has_value());
   const InverseKinematics ik(robot.chain, robot.task);
-  const InverseSolver whole = solverOf(ik);
+  const InverseSolver whole = everySolution(ik);
   const auto fewer = [&](const Pose& X) {
     std::vector<VectorX> all = whole(X);
     all.pop_back();

@@ -18,7 +18,7 @@ enum class InverseShape {
 /// What a solver's plan does, for whoever writes it down as formulas.
 struct InverseOutline {
   InverseShape shape = InverseShape::kPosition;
-  bool has_position = false;                 ///< Not where only directions are asked for.
+  bool has_position = false;                  ///< Not where only directions are asked for.
   std::array<int, 3> position{{-1, -1, -1}};  ///< Joints of the position problem, base to tip of the problem; -1: a row
                                               ///< that the task leaves open, a slide along it (ascending, first).
   int spherical_first = 0;                    ///< First joint of the orientation.
