@@ -12,8 +12,9 @@ namespace {
 
 /// What polynomials may have in them besides the target and the joints: a point, distances, entries of a rotation, a
 /// direction, a place in a plane, open rows.
-constexpr std::array<const char*, 20> kResults = {"wx",  "wy",  "wz",  "f",   "u",   "v",  "m11", "m12", "m13", "m21",
-                                                  "m22", "m23", "m31", "m32", "m33", "hx", "hy",  "hz",  "o1",  "o2"};
+constexpr std::array<const char*, 29> kResults = {"wx",  "wy",  "wz",  "f",   "u",   "v",   "m11", "m12", "m13", "m21",
+                                                  "m22", "m23", "m31", "m32", "m33", "t11", "t12", "t13", "t21", "t22",
+                                                  "t23", "t31", "t32", "t33", "hx",  "hy",  "hz",  "o1",  "o2"};
 
 Symbol input(const std::string& name) {
   Symbol symbol;

@@ -1,12 +1,15 @@
 #include "screwline/symbolic/inverse_formulas.h"
 
-#include <cmath>
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "inverse_builder.h"
 
 namespace screwline {
 namespace {
+
+constexpr double kMostSeconds = 5.0;  ///< What takes longer is too long to be read.
 
 /// The axes of the position problem; open rows of the task come first.
 std::array<InverseAxis, 3> positionAxes(const InverseBuilder& builder, const Task& task,
@@ -114,7 +117,15 @@ InverseDerivation deriveInverse(const SerialChain& chain, const Task& task,
     derivation.reason = "no formulas: the solver has no closed form for this geometry and task";
     return derivation;
   }
-  derivation.formulas = inverseFormulasOf(chain, task, *outline, options, progress);
+  Progress limited = progress;
+  limited.time_limit = std::min(progress.time_limit, kMostSeconds);
+  try {
+    derivation.formulas = inverseFormulasOf(chain, task, *outline, options, limited);
+  } catch (const DerivationStopped& stopped) {
+    if (progress.cancelled && progress.cancelled()) throw;
+    derivation.reason = std::string("no formulas: they grow too long to be read (") + stopped.what() + ")";
+    return derivation;
+  }
   if (!derivation.formulas) {
     derivation.reason = "no formulas: a step of the solver's closed form takes more than a square root";
     return derivation;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "golden.h"
+#include "ik_arms.h"
 #include "screwline/ik/inverse_outline_of.h"
 #include "screwline/ik/task_error.h"
 #include "screwline/kinematics/forward.h"
@@ -100,6 +101,24 @@ TEST(SymbolicInverse, UnreachablePosesHaveNoSolution) {
     }
   }
   EXPECT_GT(poses, 10);
+}
+
+/// Random arms of the closed forms' structures, mounted anyhow, with any tool.
+TEST(SymbolicInverse, FormulasOfRandomArmsGiveTheSolversSolutions) {
+  for (const int structure : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      test::ArmMaker maker(100 * seed + static_cast<unsigned>(structure));
+      const test::ArmMaker::Arm arm = maker.make(structure);
+      SCOPED_TRACE(arm.structure + ", seed " + std::to_string(seed));
+      const std::optional<InverseFormulas> formulas = formulasOf(arm.chain, arm.task);
+      ASSERT_TRUE(formulas.has_value());
+      const InverseKinematics ik(arm.chain, arm.task);
+      const InverseCheck check = checkInverse(*formulas, arm.chain, arm.task, everySolution(ik), 20);
+      EXPECT_TRUE(check.agrees()) << check.missing << " missing, " << check.extra << " extra";
+      EXPECT_LE(check.worst_task, kTask);
+      EXPECT_LE(check.worst_joint, kJoint);
+    }
+  }
 }
 
 /// The checker sees a solution that is missing, one too much, and a formula of another robot.
