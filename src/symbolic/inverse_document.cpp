@@ -30,7 +30,8 @@ void writeRemarks(const InverseFormulas& formulas, const InverseStep& step, cons
                   std::vector<std::string>& remarks) {
   if (step.reach) {
     const std::optional<Formula> ratio = ratioOf(step.radicand);
-    std::string beyond = writer.formula(step.radicand) + writer.text(" < 0");
+    const auto negative = [&](FormulaStyle style) { return write(step.radicand, formulas.symbols, style) + " < 0"; };
+    std::string beyond = writer.symbol(negative(FormulaStyle::kText), negative(FormulaStyle::kLatex));
     if (ratio) {
       const Symbol& D = formulas.symbols[ratio->symbolId()];
       beyond = writer.symbol("|" + D.brief + "| > 1", "|" + D.latex + "| > 1");

@@ -12,6 +12,7 @@
 #include "screwline/ik/task_error.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/spatial/rotation.h"
+#include "screwline/symbolic/derivation.h"
 #include "screwline/symbolic/inverse_document.h"
 #include "shipped_robots.h"
 
@@ -145,6 +146,27 @@ TEST(SymbolicInverse, TheCheckCanFail) {
   const InverseCheck wrong = checkInverse(other_lengths, robot.chain, robot.task, whole, 10);
   EXPECT_FALSE(wrong.agrees());
   EXPECT_GT(wrong.worst_task, 1e-6);
+}
+
+TEST(SymbolicInverse, FormulasThatFailTheCheckAreNotShown) {
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "puma560");
+  const InverseKinematics ik(robot.chain, robot.task);
+  DerivationOptions options;
+  options.quantities = {"ik"};
+  options.inverse = {"method"};
+  options.format = DocumentFormat::kText;
+  options.inverse_outline = inverseOutlineOf(robot.chain, robot.task);
+  options.inverse_solver = everySolution(ik);
+  const Derivation shown = deriveDocument(robot.chain, robot.task, options);
+  EXPECT_NE(shown.document.find("theta2 = atan2(-wz, f)"), std::string::npos) << shown.document;
+  EXPECT_NE(shown.document.find("the 800 solutions that the numeric solver finds"), std::string::npos);
+  EXPECT_TRUE(shown.no_inverse.empty());
+  options.inverse_solver = [](const Pose&) { return std::vector<VectorX>(); };
+  const Derivation refused = deriveDocument(robot.chain, robot.task, options);
+  EXPECT_EQ(refused.document.find("theta2 = atan2(-wz, f)"), std::string::npos);
+  EXPECT_NE(refused.no_inverse.find("do not hold"), std::string::npos);
+  options.inverse_outline.reset();
+  EXPECT_NE(deriveDocument(robot.chain, robot.task, options).no_inverse.find("no closed form"), std::string::npos);
 }
 
 TEST(SymbolicInverse, APlanarArmReadsAsInTextbooks) {
