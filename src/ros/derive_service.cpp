@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "screwline/ik/inverse_outline_of.h"
 #include "screwline/ik/method_summary.h"
 #include "screwline/ros/checks.h"
 #include "screwline/ros/kinematics_server.h"
@@ -20,11 +21,17 @@ Outcome KinematicsServer::derive(const Derive::Request& request, Derive::Respons
   options.format = documentFormatOf(request.format.empty() ? "markdown" : request.format);
   const auto& asked = request.quantities;
   const bool inverse = asked.empty() || std::find(asked.begin(), asked.end(), "ik") != asked.end();
-  if (inverse) options.inverse = summaryOf(*solverFor(linkOrTip("", "tip_link"), robot_.task));
+  const auto solver = solverFor(linkOrTip("", "tip_link"), robot_.task);
+  if (inverse) {
+    options.inverse = summaryOf(*solver);
+    options.inverse_outline = inverseOutlineOf(chain, robot_.task);
+    options.inverse_solver = everySolution(*solver);
+  }
   options.progress.time_limit = params_.derive_timeout;
   options.progress.cancelled = [] { return ros::isShuttingDown(); };
   response.joint_names = chain.jointNames();
   response.task = robot_.task.names();
+  std::string message;
   try {
     Derivation derived = deriveDocument(chain, robot_.task, options);
     response.document = std::move(derived.document);
@@ -32,10 +39,11 @@ Outcome KinematicsServer::derive(const Derive::Request& request, Derive::Respons
     response.symbols = std::move(derived.symbols);
     response.symbol_values = std::move(derived.symbol_values);
     response.worst_deviation = derived.worst_deviation;
+    if (!derived.no_inverse.empty()) message = "ik: the method and its branches; " + derived.no_inverse;
   } catch (const DerivationStopped& stopped) {
     throw InputError(AnswerCode::kTimedOut, stopped.what());
   }
-  return {AnswerCode::kSuccess, inverse ? "ik: the method and its branches, no formulas" : ""};
+  return {AnswerCode::kSuccess, message};
 }
 
 }  // namespace ros_bridge

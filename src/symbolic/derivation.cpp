@@ -10,6 +10,7 @@
 #include "numeric_check.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/kinematics/propagation.h"
+#include "screwline/symbolic/inverse_document.h"
 
 namespace screwline {
 namespace {
@@ -284,6 +285,18 @@ class Deriver {
     std::vector<std::string> lines;
     for (const std::string& line : options_.inverse) lines.push_back(document_.text(line));
     document_.list(lines);
+    writeInverseFormulas();
+  }
+
+  void writeInverseFormulas() {
+    watch_.begin("inverse kinematics");
+    const InverseDerivation inverse =
+        deriveInverse(chain_, task_, options_.inverse_outline, options_.inverse_solver, options_.check_configurations,
+                      options_.symbolic, options_.progress);
+    result_.no_inverse = inverse.reason;
+    if (!inverse.formulas) return document_.paragraph(document_.text(inverse.reason + "."));
+    document_.paragraph(inverseSection(*inverse.formulas, options_.format));
+    if (options_.inverse_solver) document_.paragraph(document_.text(sentenceOf(inverse.check)));
   }
 
   void writeCheck() {

@@ -45,8 +45,8 @@ TrigMatrix rotation(const RingPointer& ring, int axis, const ExactAngle& angle) 
 
 }  // namespace
 
-ExactChain::ExactChain(const SerialChain& chain, const SymbolicOptions& options, const Progress& progress)
-    : table(exactTableOf(chain, options)),
+ExactChain::ExactChain(ExactTable known, const SerialChain& chain, const Progress& progress)
+    : table(std::move(known)),
       size(static_cast<int>(table.rows.size())),
       joints(chain.size()),
       ring(ringOf(table, progress)),

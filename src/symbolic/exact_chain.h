@@ -57,7 +57,10 @@ struct ExactDeterminant;
 
 /// The chain's transforms as polynomials.
 struct ExactChain {
-  ExactChain(const SerialChain& chain, const SymbolicOptions& options, const Progress& progress);
+  ExactChain(const SerialChain& chain, const SymbolicOptions& options, const Progress& progress)
+      : ExactChain(exactTableOf(chain, options), chain, progress) {}
+  /// Of a table of the chain to which symbols and groups of angles were added.
+  ExactChain(ExactTable known, const SerialChain& chain, const Progress& progress);
 
   ExactTable table;
   int size = 0;    ///< Axes.

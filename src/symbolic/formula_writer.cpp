@@ -112,9 +112,13 @@ class Writer {
     return {sign + size + "/" + below, std::min(binding, Binding::kProduct)};
   }
 
+  /// A number stands last, but "1 - D" is not written "-D + 1".
   Written sum(const Formula& formula) const {
+    std::vector<Formula> terms = formula.parts();
+    const bool turned = terms.back().kind() == Kind::kNumber && !isNegative(terms.back()) && isNegative(terms.front());
+    if (turned) std::rotate(terms.begin(), terms.end() - 1, terms.end());
     std::string text;
-    for (const Formula& term : formula.parts()) {
+    for (const Formula& term : terms) {
       const bool negative = isNegative(term);
       text += text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ");
       text += enclosed(negative ? -term : term, Binding::kProduct);

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "screwline/exception.h"
+#include "screwline/ik/inverse_outline_of.h"
 #include "screwline/ik/method_summary.h"
 #include "screwline/kinematics/task_selection.h"
 #include "screwline/model/urdf_reader.h"
+#include "screwline/symbolic/cpp_header.h"
 #include "screwline/symbolic/derivation.h"
 
 namespace {
@@ -16,17 +18,19 @@ namespace {
 constexpr int kUsageError = 2;
 
 constexpr const char* kUsage =
-    "usage: derive ROBOT.urdf [--format text|markdown|latex] [--quantities fk,jacobian,propagation,determinant,"
+    "usage: derive ROBOT.urdf [--format text|markdown|latex|cpp] [--quantities fk,jacobian,propagation,determinant,"
     "singularities,ik]\n"
     "              [--task x,y,z,rx,ry,rz] [--base LINK] [--tip LINK] [--share-lengths]\n"
-    "Prints forward kinematics, Jacobian, propagation, the task determinant in factors and the singular conditions as\n"
-    "formulas, checked against numbers. Progress is told on standard error; Ctrl-C ends it.\n"
+    "Prints forward kinematics, Jacobian, propagation, the task determinant in factors, the singular conditions and\n"
+    "inverse kinematics as formulas, checked against numbers. Progress is told on standard error; Ctrl-C ends it.\n"
+    "  --format cpp     a C++17 header of the robot's own forward kinematics, Jacobian and inverse kinematics\n"
     "  --share-lengths  lengths of equal size become one symbol\n";
 
 struct Arguments {
   std::string file;
   screwline::ChainChoice choice;
   std::vector<std::string> task;
+  bool cpp = false;  ///< A header instead of a document.
   screwline::DerivationOptions options;
 };
 
@@ -52,7 +56,9 @@ bool parse(const std::vector<std::string>& words, Arguments& arguments) {
     }
     if (i + 1 == words.size()) return false;
     const std::string& value = words[++i];
-    if (word == "--format") {
+    if (word == "--format" && value == "cpp") {
+      arguments.cpp = true;
+    } else if (word == "--format") {
       arguments.options.format = screwline::documentFormatOf(value);
     } else if (word == "--quantities") {
       arguments.options.quantities = splitAtCommas(value);
@@ -69,13 +75,27 @@ bool parse(const std::vector<std::string>& words, Arguments& arguments) {
   return !arguments.file.empty();
 }
 
+std::string headerOf(const screwline::SerialChain& chain, const screwline::Task& task,
+                     const screwline::DerivationOptions& options) {
+  const screwline::InverseDerivation inverse =
+      screwline::deriveInverse(chain, task, options.inverse_outline, options.inverse_solver,
+                               options.check_configurations, options.symbolic, options.progress);
+  if (!inverse.formulas) std::cerr << "derive: inverse kinematics: " << inverse.reason << std::endl;
+  return screwline::cppHeaderOf(chain, inverse.formulas, options.symbolic, options.progress);
+}
+
 void derive(Arguments& arguments) {
   const screwline::SerialChain chain = screwline::readUrdfFile(arguments.file, arguments.choice);
   const screwline::Task task =
       arguments.task.empty() ? screwline::deriveTask(chain) : screwline::Task::parse(arguments.task);
   arguments.options.progress.report = [](const std::string& stage) { std::cerr << "derive: " << stage << std::endl; };
-  arguments.options.inverse = screwline::summaryOf(screwline::InverseKinematics(chain, task));
-  std::cout << screwline::deriveDocument(chain, task, arguments.options).document << std::flush;
+  const screwline::InverseKinematics ik(chain, task);
+  arguments.options.inverse = screwline::summaryOf(ik);
+  arguments.options.inverse_outline = screwline::inverseOutlineOf(chain, task);
+  arguments.options.inverse_solver = screwline::everySolution(ik);
+  std::cout << (arguments.cpp ? headerOf(chain, task, arguments.options)
+                              : screwline::deriveDocument(chain, task, arguments.options).document)
+            << std::flush;
 }
 
 }  // namespace

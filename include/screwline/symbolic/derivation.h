@@ -1,11 +1,13 @@
 #ifndef SCREWLINE_SYMBOLIC_DERIVATION_H
 #define SCREWLINE_SYMBOLIC_DERIVATION_H
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "screwline/symbolic/conditions.h"
 #include "screwline/symbolic/document.h"
+#include "screwline/symbolic/inverse_formulas.h"
 
 namespace screwline {
 
@@ -14,6 +16,8 @@ struct DerivationOptions {
   std::vector<std::string> quantities;
   DocumentFormat format = DocumentFormat::kMarkdown;
   std::vector<std::string> inverse;  ///< Lines that tell of inverse kinematics (ik/method_summary.h), for `ik`.
+  std::optional<InverseOutline> inverse_outline;  ///< The solver's closed form (ik/inverse_outline_of.h), for `ik`.
+  InverseSolver inverse_solver;                   ///< What inverse formulas are compared with.
   SymbolicOptions symbolic;
   int check_configurations = 100;  ///< Random ones at which each formula is compared with the numeric core.
   Progress progress;
@@ -28,6 +32,7 @@ struct Derivation {
   std::vector<std::string> symbols;   ///< Of lengths and constant angles in the factors and the document.
   std::vector<double> symbol_values;  ///< m, rad.
   std::vector<ConditionFormula> conditions;
+  std::string no_inverse;        ///< Why there are no inverse formulas, where they were asked for.
   double worst_deviation = 0.0;  ///< Of any derived formula from the numeric core, relative.
 };
 

@@ -35,6 +35,8 @@ class DocumentWriter {
   std::string symbol(const std::string& in_text, const std::string& in_latex) const;
 
   std::string finished() const;
+  /// What was written so far, as a part for another document of the same format.
+  const std::string& body() const { return body_; }
 
  private:
   std::string written(const Formula& formula) const;

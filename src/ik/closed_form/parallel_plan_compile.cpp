@@ -109,6 +109,16 @@ bool ParallelPlan::compileOrder(const SerialChain& chain, bool reversed, int fir
   return true;
 }
 
+InverseOutline ParallelPlan::outline() const {
+  InverseOutline outline;
+  outline.shape = InverseShape::kParallel;
+  outline.reversed = reversed_;
+  outline.first_parallel = first_parallel_;
+  outline.single = single_axis_;
+  outline.pair = pair_axis_;
+  return outline;
+}
+
 bool ParallelPlan::reproduces(const SerialChain& chain) const {
   std::mt19937 random(20240229);
   VectorX found(6);

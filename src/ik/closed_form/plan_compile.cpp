@@ -163,6 +163,36 @@ bool ClosedFormPlan::compileHeading(const Task& task) {
   return true;
 }
 
+InverseOutline ClosedFormPlan::outline() const {
+  InverseOutline outline;
+  switch (shape_) {
+    case Shape::kPosition:
+      outline.shape = InverseShape::kPosition;
+      break;
+    case Shape::kOrientation:
+      outline.shape = InverseShape::kOrientation;
+      break;
+    case Shape::kWrist:
+      outline.shape = InverseShape::kWrist;
+      break;
+    case Shape::kShoulder:
+      outline.shape = InverseShape::kShoulder;
+      break;
+    case Shape::kHeading:
+      outline.shape = InverseShape::kHeading;
+      break;
+  }
+  outline.has_position = position_.has_value();
+  outline.position = stage_joints_;
+  outline.spherical_first = spherical_first_;
+  outline.heading_joint = heading_joint_;
+  Eigen::Index row = 2;
+  heading_axis_.maxCoeff(&row);
+  outline.heading_row = static_cast<int>(row);
+  outline.turning_slides = turning_slides_;
+  return outline;
+}
+
 bool ClosedFormPlan::reproduces(const SerialChain& chain, const Task& task) const {
   std::mt19937 random(20240229);
   const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };

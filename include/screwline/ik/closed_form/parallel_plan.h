@@ -8,6 +8,7 @@
 #include "screwline/ik/closed_form/direction_problem.h"
 #include "screwline/ik/closed_form/plan.h"
 #include "screwline/ik/closed_form/planar_problem.h"
+#include "screwline/kinematics/inverse_outline.h"
 
 namespace screwline {
 
@@ -44,6 +45,7 @@ class ParallelPlan {
   /// As "three parallel axes in the middle, joint1 by a height, joint5 and joint6 by a direction".
   const std::string& method() const { return method_; }
   const std::vector<BranchPart>& branchParts() const { return parts_; }
+  InverseOutline outline() const;
   bool isDouble(const PlanSolution& solution) const;
   std::string branchName(const PlanSolution& solution) const;
 

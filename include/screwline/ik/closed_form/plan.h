@@ -9,6 +9,7 @@
 #include "screwline/ik/closed_form/orientation_problem.h"
 #include "screwline/ik/closed_form/position_problem.h"
 #include "screwline/ik/closed_form/turn_sequence.h"
+#include "screwline/kinematics/inverse_outline.h"
 #include "screwline/model/serial_chain.h"
 #include "screwline/model/task.h"
 
@@ -72,6 +73,7 @@ class ClosedFormPlan {
   /// As "position by three joints (axes that meet), spherical wrist".
   const std::string& method() const { return method_; }
   const std::vector<BranchPart>& branchParts() const { return parts_; }
+  InverseOutline outline() const;
   /// Whether two solutions meet in this one: a part of its name is neutral.
   bool isDouble(const PlanSolution& solution) const;
   /// "shoulder front, elbow up"; empty where there is one branch only.

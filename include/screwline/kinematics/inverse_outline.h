@@ -1,0 +1,37 @@
+#ifndef SCREWLINE_KINEMATICS_INVERSE_OUTLINE_H
+#define SCREWLINE_KINEMATICS_INVERSE_OUTLINE_H
+
+#include <array>
+
+namespace screwline {
+
+/// Into which small problems a closed form takes inverse kinematics apart, and in which order.
+enum class InverseShape {
+  kPosition,     ///< A point moved by three axes.
+  kOrientation,  ///< Three turns.
+  kWrist,        ///< The point where the last three axes meet by the first three, then an orientation by the last.
+  kShoulder,     ///< The same from the tip: the first three axes meet.
+  kHeading,      ///< A heading by the last turn, a point by the others.
+  kParallel,     ///< Three neighbouring parallel axes: a height, a direction, a plane.
+};
+
+/// What a solver's plan does, for whoever writes it down as formulas.
+struct InverseOutline {
+  InverseShape shape = InverseShape::kPosition;
+  bool has_position = false;                  ///< Not where only directions are asked for.
+  std::array<int, 3> position{{-1, -1, -1}};  ///< Joints of the position problem, base to tip of the problem; -1: a row
+                                              ///< that the task leaves open, a slide along it (ascending, first).
+  int spherical_first = 0;                    ///< First joint of the orientation.
+  int heading_joint = -1;
+  int heading_row = 2;          ///< Base axis 0, 1, 2 that the heading is about.
+  bool turning_slides = false;  ///< Slides behind the heading joint turn with it.
+  /// kParallel: places counted from the base, or from the tip where `reversed`.
+  bool reversed = false;
+  int first_parallel = 0;
+  int single = 0;
+  int pair = 0;  ///< First of the two.
+};
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_KINEMATICS_INVERSE_OUTLINE_H

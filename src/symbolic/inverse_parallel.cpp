@@ -1,0 +1,153 @@
+// Three parallel axes among six turns: what points along them passes them unchanged (Elias & Wen 2022). The height of a
+// point gives the single joint, the direction of the axes the pair, and two links in a plane are left.
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "inverse_builder.h"
+
+namespace screwline {
+namespace {
+
+class ParallelWriter {
+ public:
+  ParallelWriter(InverseBuilder& builder, const InverseOutline& outline)
+      : builder_(builder), outline_(outline), home_(builder.zeroFrame(7)), target_(builder.identity()) {
+    for (int i = 0; i < 6; ++i) axes_.push_back(outline.reversed ? builder.axis(5 - i, -1) : builder.axis(i, 1));
+    const TrigPose tip = {builder.targetRotation(), builder.targetPoint()};
+    const TrigPose all = tip * home_.inverse();
+    target_ = outline.reversed ? all.inverse() : all;
+  }
+
+  bool write() {
+    if (!writeSingle() || !writePair()) return false;
+    return writePlane();
+  }
+
+ private:
+  const InverseAxis& axis(int place) const { return axes_[static_cast<std::size_t>(place)]; }
+  /// The motion of an axis in the base link.
+  TrigPose turn(int place) const {
+    const InverseAxis& a = axis(place);
+    return a.Z * builder_.motion(a) * a.Z.inverse();
+  }
+  TrigMatrix along() const { return axis(outline_.first_parallel).Z.R.column(2); }
+  bool isBefore() const { return outline_.single < outline_.first_parallel; }
+  bool isBetween() const { return outline_.single > outline_.first_parallel && outline_.single < outline_.pair; }
+
+  TrigPolynomial height(const TrigMatrix& point) const {
+    const TrigMatrix h = along();
+    return h(0, 0) * point(0, 0) + h(1, 0) * point(1, 0) + h(2, 0) * point(2, 0);
+  }
+
+  /// Where the pair's axes meet: the origin of the table's frame on the one nearer to the base.
+  TrigMatrix meeting() const { return axis(outline_.reversed ? outline_.pair + 1 : outline_.pair).Z.p; }
+
+  bool writeSingle() {
+    builder_.say("The point where the axes of joints " + pairNames() + " meet:");
+    TrigMatrix equation(builder_.ring(), 1, 1);
+    const TrigMatrix point = meeting();
+    if (isBefore()) {
+      const TrigMatrix image = times(axis(0).Z.inverse(), times(target_, point));
+      const TrigMatrix w = namePoint(image);
+      const TrigMatrix before = times(builder_.motion(axis(0)).inverse(), w);
+      equation(0, 0) = height(times(axis(0).Z, before)) - height(point);
+    } else if (isBetween()) {
+      const TrigMatrix w = namePoint(times(target_, point));
+      equation(0, 0) = height(times(turn(outline_.single), point)) - height(w);
+    } else {
+      const TrigMatrix back = times(target_, times(turn(outline_.single).inverse(), point));
+      equation(0, 0) = height(back) - height(point);
+    }
+    builder_.say("Its height along the parallel axes:");
+    return builder_.solve(axis(outline_.single), equation(0, 0));
+  }
+
+  TrigMatrix namePoint(TrigMatrix point) {
+    const char* names[3] = {"wx", "wy", "wz"};
+    for (int i = 0; i < 3; ++i) point(i, 0) = builder_.named(names[i], point(i, 0));
+    return point;
+  }
+
+  std::string pairNames() const {
+    const int a = axis(outline_.pair).joint + 1;
+    const int b = axis(outline_.pair + 1).joint + 1;
+    return std::to_string(std::min(a, b)) + " and " + std::to_string(std::max(a, b));
+  }
+
+  /// Rz(first) K Rz(second) f = e: the parallel axes' direction seen from both sides of the pair.
+  bool writePair() {
+    const InverseAxis& first = axis(outline_.pair);
+    const InverseAxis& second = axis(outline_.pair + 1);
+    TrigMatrix from = target_.R.transposed() * along();
+    TrigMatrix to = along();
+    if (isBefore()) from = target_.R.transposed() * (turn(0).R * along());
+    if (isBetween()) to = turn(outline_.single).R.transposed() * along();
+    if (!isBefore() && !isBetween()) from = turn(outline_.single).R * from;
+    builder_.say("The direction of the parallel axes, seen from behind joints " + pairNames() + ":");
+    TrigMatrix f = second.Z.R.transposed() * from;
+    const char* names[3] = {"hx", "hy", "hz"};
+    for (int i = 0; i < 3; ++i) f(i, 0) = builder_.named(names[i], f(i, 0));
+    const TrigMatrix e = first.Z.R.transposed() * to;
+    const TrigMatrix K = first.Z.R.transposed() * second.Z.R;
+    const TrigMatrix image = K.transposed() * (builder_.motion(first).R.transposed() * e);
+    if (!builder_.solveMiddle(first, f, image(2, 0))) return false;
+    builder_.turnBetween(second, f(0, 0), f(1, 0), image(0, 0), image(1, 0));
+    return true;
+  }
+
+  /// Rz K2 Rz K3 Rz = Q: the place of the third parallel axis, and the heading behind it.
+  bool writePlane() {
+    const int k = outline_.first_parallel;
+    TrigPose after = builder_.identity();
+    for (int i = k + 3; i < 6; ++i) after = after * turn(i);
+    TrigPose Q = target_ * after.inverse();
+    if (isBefore()) Q = turn(0).inverse() * Q;
+    Q = axis(k).Z.inverse() * Q * axis(k + 2).Z;
+    const TrigPose K2 = axis(k).Z.inverse() * axis(k + 1).Z;
+    const TrigPose K3 = axis(k + 1).Z.inverse() * axis(k + 2).Z;
+    builder_.say("The place of the third parallel axis, seen from the first:");
+    const TrigPolynomial u = builder_.named("u", Q.p(0, 0));
+    const TrigPolynomial v = builder_.named("v", Q.p(1, 0));
+    const TrigMatrix elbow = times(K2, times(builder_.motion(axis(k + 1)), K3.p));
+    builder_.say("Its distance gives the elbow:");
+    const TrigPolynomial stretch = elbow(0, 0) * elbow(0, 0) + elbow(1, 0) * elbow(1, 0) - u * u - v * v;
+    if (!builder_.solve(axis(k + 1), stretch)) return false;
+    builder_.turnBetween(axis(k), elbow(0, 0), elbow(1, 0), u, v);
+    writeHeading(Q.R * (K2.R * K3.R).transposed(), (K2.R)(2, 2), (K2.R * K3.R)(2, 2));
+    return true;
+  }
+
+  /// What is left of the heading, which sums the three angles with the signs of their axes.
+  void writeHeading(const TrigMatrix& heading, const TrigPolynomial& second, const TrigPolynomial& third) {
+    const int k = outline_.first_parallel;
+    builder_.say("What is left of the heading:");
+    const TrigPolynomial s = builder_.named("m21", heading(1, 0));
+    const TrigPolynomial c = builder_.named("m11", heading(0, 0));
+    const auto share = [&](int place, const TrigPolynomial& sign) {
+      const int sense = axis(place).sense * (builder_.valueOf(sign) < 0.0 ? -1 : 1);
+      return Formula::number(sense);
+    };
+    const Formula all = Formula::call(FormulaFunction::kArcTangent2, {builder_.formula(s), builder_.formula(c)});
+    const Formula rest = all - share(k, builder_.number(1)) * Formula::symbol(axis(k).symbol) -
+                         share(k + 1, second) * Formula::symbol(axis(k + 1).symbol);
+    const Formula last = share(k + 2, third) * rest;
+    builder_.setJoint(axis(k + 2).symbol, last);
+  }
+
+  InverseBuilder& builder_;
+  const InverseOutline& outline_;
+  std::vector<InverseAxis> axes_;
+  TrigPose home_;
+  TrigPose target_;
+};
+
+}  // namespace
+
+bool writeParallel(InverseBuilder& builder, const InverseOutline& outline) {
+  return ParallelWriter(builder, outline).write();
+}
+
+}  // namespace screwline

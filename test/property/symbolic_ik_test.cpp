@@ -1,0 +1,193 @@
+// Inverse kinematics as formulas, worked off from the symbolic objects, against the solver and forward kinematics.
+
+#include <algorithm>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "golden.h"
+#include "ik_arms.h"
+#include "screwline/ik/inverse_outline_of.h"
+#include "screwline/ik/task_error.h"
+#include "screwline/kinematics/forward.h"
+#include "screwline/spatial/rotation.h"
+#include "screwline/symbolic/derivation.h"
+#include "screwline/symbolic/inverse_document.h"
+#include "shipped_robots.h"
+
+namespace screwline {
+namespace {
+
+constexpr int kPoses = 100;
+constexpr double kTask = 1e-12;  // [rad, chain's lengths]
+constexpr double kJoint = 1e-9;  // [rad, m]
+
+const std::vector<std::string>& written() {
+  static const std::vector<std::string> names = {
+      "rr_planar",     "rrr_planar",   "planar_3r",       "rrr_articulated", "rrr_orthogonal",
+      "rrp_spherical", "rrp_offset",   "rpp_cylindrical", "spherical_wrist", "orienting_3r",
+      "scara",         "scara_600",    "prrr_arm",        "prrr_column",     "rrprrr",
+      "puma560",       "stanford_arm", "kr6_r900",        "irb6640",         "m10ia",
+      "ur5",           "ur10e"};
+  return names;
+}
+
+std::optional<InverseFormulas> formulasOf(const SerialChain& chain, const Task& task) {
+  const std::optional<InverseOutline> outline = inverseOutlineOf(chain, task);
+  return outline ? inverseFormulasOf(chain, task, *outline) : std::nullopt;
+}
+
+double difference(const SerialChain& chain, const VectorX& a, const VectorX& b) {
+  double worst = 0.0;
+  for (int i = 0; i < chain.size(); ++i)
+    worst = std::max(worst, std::abs(chain.joint(i).isRevolute() ? wrapAngle(a[i] - b[i]) : a[i] - b[i]));
+  return worst;
+}
+
+TEST(SymbolicInverse, FormulasOfShippedRobotsGiveTheSolversSolutions) {
+  for (const std::string& name : written()) {
+    SCOPED_TRACE(name);
+    const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, name);
+    const std::optional<InverseFormulas> formulas = formulasOf(robot.chain, robot.task);
+    ASSERT_TRUE(formulas.has_value());
+    const InverseKinematics ik(robot.chain, robot.task);
+    const InverseCheck check = checkInverse(*formulas, robot.chain, robot.task, everySolution(ik), kPoses);
+    EXPECT_EQ(check.poses, kPoses);
+    EXPECT_GE(check.solutions, kPoses);
+    EXPECT_TRUE(check.agrees()) << check.missing << " missing, " << check.extra << " extra of " << check.solutions;
+    EXPECT_LE(check.worst_task, kTask);
+    EXPECT_LE(check.worst_joint, kJoint);
+  }
+}
+
+/// The mechanisms of the golden data, from screw axes and from tables, at poses where solutions may meet or be
+/// infinitely many: the configuration itself is found where free joints have its values.
+TEST(SymbolicInverse, FormulasReachGoldenPosesSingularOnesToo) {
+  for (const std::string& name : golden::names()) {
+    SCOPED_TRACE(name);
+    const golden::File* file = golden::load(name);
+    ASSERT_NE(file, nullptr);
+    for (const SerialChain* chain : {&file->chain, &file->table}) {
+      if (chain == &file->table && !inverseOutlineOf(*chain, file->task)) continue;
+      const std::optional<InverseFormulas> formulas = formulasOf(*chain, file->task);
+      ASSERT_TRUE(formulas.has_value());
+      for (const golden::Case& one : file->cases) {
+        SCOPED_TRACE(one.id);
+        const Pose target = forwardKinematics(*chain, one.q);
+        const std::vector<InverseSolution> found = evaluate(*formulas, target, one.q);
+        double nearest = 10.0;
+        for (const InverseSolution& solution : found) {
+          nearest = std::min(nearest, difference(*chain, solution.q, one.q));
+          const Pose reached = forwardKinematics(*chain, solution.q);
+          EXPECT_LE(taskError(file->task, target, reached).norm(), 1e-7);
+        }
+        EXPECT_LE(nearest, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(SymbolicInverse, UnreachablePosesHaveNoSolution) {
+  int poses = 0;
+  for (const std::string& name : golden::names()) {
+    SCOPED_TRACE(name);
+    const golden::File* file = golden::load(name);
+    ASSERT_NE(file, nullptr);
+    const std::optional<InverseFormulas> formulas = formulasOf(file->chain, file->task);
+    ASSERT_TRUE(formulas.has_value());
+    for (const golden::UnreachablePose& one : file->unreachable) {
+      EXPECT_TRUE(evaluate(*formulas, one.pose, VectorX::Zero(file->chain.size())).empty()) << one.reason;
+      ++poses;
+    }
+  }
+  EXPECT_GT(poses, 10);
+}
+
+/// Random arms of the closed forms' structures, mounted anyhow, with any tool.
+TEST(SymbolicInverse, FormulasOfRandomArmsGiveTheSolversSolutions) {
+  for (const int structure : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      test::ArmMaker maker(100 * seed + static_cast<unsigned>(structure));
+      const test::ArmMaker::Arm arm = maker.make(structure);
+      SCOPED_TRACE(arm.structure + ", seed " + std::to_string(seed));
+      const std::optional<InverseFormulas> formulas = formulasOf(arm.chain, arm.task);
+      ASSERT_TRUE(formulas.has_value());
+      const InverseKinematics ik(arm.chain, arm.task);
+      const InverseCheck check = checkInverse(*formulas, arm.chain, arm.task, everySolution(ik), 20);
+      EXPECT_TRUE(check.agrees()) << check.missing << " missing, " << check.extra << " extra";
+      EXPECT_LE(check.worst_task, kTask);
+      EXPECT_LE(check.worst_joint, kJoint);
+    }
+  }
+}
+
+/// The checker sees a solution that is missing, one too much, and a formula of another robot.
+TEST(SymbolicInverse, TheCheckCanFail) {
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "puma560");
+  const std::optional<InverseFormulas> formulas = formulasOf(robot.chain, robot.task);
+  ASSERT_TRUE(formulas.has_value());
+  const InverseKinematics ik(robot.chain, robot.task);
+  const InverseSolver whole = everySolution(ik);
+  const auto fewer = [&](const Pose& X) {
+    std::vector<VectorX> all = whole(X);
+    all.pop_back();
+    return all;
+  };
+  EXPECT_EQ(checkInverse(*formulas, robot.chain, robot.task, fewer, 10).extra, 10);
+  InverseFormulas other_lengths = *formulas;
+  SymbolTable symbols;
+  for (int id = 0; id < formulas->symbols.size(); ++id) {
+    Symbol symbol = formulas->symbols[id];
+    if (symbol.kind == SymbolKind::kLength) symbol.value *= 1.0001;
+    symbols.add(symbol);
+  }
+  other_lengths.symbols = symbols;
+  const InverseCheck wrong = checkInverse(other_lengths, robot.chain, robot.task, whole, 10);
+  EXPECT_FALSE(wrong.agrees());
+  EXPECT_GT(wrong.worst_task, 1e-6);
+}
+
+TEST(SymbolicInverse, FormulasThatFailTheCheckAreNotShown) {
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "puma560");
+  const InverseKinematics ik(robot.chain, robot.task);
+  DerivationOptions options;
+  options.quantities = {"ik"};
+  options.inverse = {"method"};
+  options.format = DocumentFormat::kText;
+  options.inverse_outline = inverseOutlineOf(robot.chain, robot.task);
+  options.inverse_solver = everySolution(ik);
+  const Derivation shown = deriveDocument(robot.chain, robot.task, options);
+  EXPECT_NE(shown.document.find("theta2 = atan2(-wz, f)"), std::string::npos) << shown.document;
+  EXPECT_NE(shown.document.find("the 800 solutions that the numeric solver finds"), std::string::npos);
+  EXPECT_TRUE(shown.no_inverse.empty());
+  options.inverse_solver = [](const Pose&) { return std::vector<VectorX>(); };
+  const Derivation refused = deriveDocument(robot.chain, robot.task, options);
+  EXPECT_EQ(refused.document.find("theta2 = atan2(-wz, f)"), std::string::npos);
+  EXPECT_NE(refused.no_inverse.find("do not hold"), std::string::npos);
+  options.inverse_outline.reset();
+  EXPECT_NE(deriveDocument(robot.chain, robot.task, options).no_inverse.find("no closed form"), std::string::npos);
+}
+
+TEST(SymbolicInverse, APlanarArmReadsAsInTextbooks) {
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "rr_planar");
+  const std::optional<InverseFormulas> formulas = formulasOf(robot.chain, robot.task);
+  ASSERT_TRUE(formulas.has_value());
+  const std::string text = inverseSection(*formulas, DocumentFormat::kText);
+  for (const char* line : {"D2 = (px^2 + py^2 - a1^2 - a2^2)/(2 a1 a2)\n", "S2 = +- sqrt(1 - D2^2)\n",
+                           "theta2 = atan2(S2, D2)\n", "theta1 = atan2(py, px) - atan2(a2 s2, a1 + a2 c2)\n",
+                           "|D2| > 1", "theta1 may take any value where px = py = 0"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  }
+  EXPECT_NE(inverseSection(*formulas, DocumentFormat::kMarkdown).find("\\pm \\sqrt{1 - D_{2}^{2}}"), std::string::npos);
+}
+
+TEST(SymbolicInverse, RobotsWithoutAClosedFormHaveNone) {
+  for (const char* name : {"jaco2_6dof", "panda"}) {
+    const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, name);
+    EXPECT_FALSE(inverseOutlineOf(robot.chain, robot.task).has_value()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace screwline
