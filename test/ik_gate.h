@@ -36,8 +36,8 @@ inline double jointDifference(const SerialChain& chain, const VectorX& a, const 
 /// How well a configuration is told by its pose: 1e-16 over the least singular value, and 1e-6 at which solutions are
 /// one.
 inline double placeTolerance(const SerialChain& chain, const Task& task, const VectorX& q) {
-  return 1.5e-6 +
-         2e-14 * (1.0 + chain.characteristicLength()) / std::max(singularValues(taskJacobian(chain, q, task)).minCoeff(), 1e-15);
+  return 1.5e-6 + 2e-14 * (1.0 + chain.characteristicLength()) /
+                      std::max(singularValues(taskJacobian(chain, q, task)).minCoeff(), 1e-15);
 }
 
 /// What was asked of inverse kinematics about the pose of one configuration, and what came of it.
@@ -218,7 +218,8 @@ class IkGate {
       const Pose tip = geometricJacobian(chain_, at, J);
       return ik_.task().select(taskError(ik_.task(), target_, tip).twist, tip.R);
     };
-    const Eigen::JacobiSVD<MatrixX> svd(taskJacobian(chain_, q_, ik_.task()), Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<MatrixX> svd(taskJacobian(chain_, q_, ik_.task()),
+                                        Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::Index last = chain_.size() - 1;
     const double sigma = svd.singularValues()[last];
     if (sigma > 1e-2 || sigma < 1e-10) return false;
