@@ -36,10 +36,8 @@ inline double jointDifference(const SerialChain& chain, const VectorX& a, const 
 /// How well a configuration is told by its pose: 1e-16 over the least singular value, and 1e-6 at which solutions are
 /// one.
 inline double placeTolerance(const SerialChain& chain, const Task& task, const VectorX& q) {
-  Matrix6X J;
-  geometricJacobian(chain, q, J);
-  return 1.5e-6 +
-         2e-14 * (1.0 + chain.characteristicLength()) / std::max(singularValues(task.select(J)).minCoeff(), 1e-15);
+  return 1.5e-6 + 2e-14 * (1.0 + chain.characteristicLength()) /
+                      std::max(singularValues(taskJacobian(chain, q, task)).minCoeff(), 1e-15);
 }
 
 /// What was asked of inverse kinematics about the pose of one configuration, and what came of it.
@@ -217,10 +215,11 @@ class IkGate {
     if (!ik_.complete() || chain_.size() != ik_.task().size() || chain_.hasMimic()) return false;
     Matrix6X J;
     const auto residual = [&](const VectorX& at) {
-      return ik_.task().select(taskError(ik_.task(), target_, geometricJacobian(chain_, at, J)).twist);
+      const Pose tip = geometricJacobian(chain_, at, J);
+      return ik_.task().select(taskError(ik_.task(), target_, tip).twist, tip.R);
     };
-    geometricJacobian(chain_, q_, J);
-    const Eigen::JacobiSVD<MatrixX> svd(ik_.task().select(J), Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<MatrixX> svd(taskJacobian(chain_, q_, ik_.task()),
+                                        Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::Index last = chain_.size() - 1;
     const double sigma = svd.singularValues()[last];
     if (sigma > 1e-2 || sigma < 1e-10) return false;
@@ -233,7 +232,7 @@ class IkGate {
     VectorX mate = q_ + t * n;
     for (int k = 0; k < 30; ++k) {
       const VectorX error = residual(mate);
-      const VectorX step = ik_.task().select(J).fullPivLu().solve(error);
+      const VectorX step = taskJacobian(chain_, mate, ik_.task()).fullPivLu().solve(error);
       if (!step.allFinite() || step.norm() > 0.1) return false;
       mate += step;
     }
