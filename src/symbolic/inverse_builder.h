@@ -35,8 +35,8 @@ class InverseBuilder {
   /// The slide along base axis `row` that a missing row of the task allows; `number` tells two of them apart.
   InverseAxis openRow(int row, int number) const;
   TrigPose motion(const InverseAxis& axis) const;
-  TrigPose constantStep(int i) const;  ///< Frame i + 1 in frame i at zero, i = 0..n: the tip the last.
-  const TrigMatrix& baseRotation() const { return exact_.base.R; }
+  TrigPose constantStep(int i) const;                   ///< Frame i + 1 in frame i at zero, i = 0..n: the tip the last.
+  const TrigPose& base() const { return exact_.base; }  ///< Frame 0 of the table in the base link.
   TrigPose step(int i) const { return exact_.steps[static_cast<std::size_t>(i)]; }
   TrigPose zeroFrame(int frame) const;          ///< Of the table, in the base link, at zero; n + 1: the tip.
   TrigPolynomial offsetAlong(int joint) const;  ///< d of a revolute joint's row.

@@ -25,7 +25,7 @@ TrigMatrix nameEntries(InverseBuilder& builder, const std::string& letter, TrigM
 /// and tool are mounted is taken off first.
 TrigMatrix rotationLeft(InverseBuilder& builder, int first) {
   const int n = builder.chain().size();
-  const TrigMatrix mounted = builder.baseRotation();
+  const TrigMatrix mounted = builder.base().R;
   const TrigMatrix tool = builder.step(n).R;
   builder.say("The rotation between the first and the last axis, base and tool taken off:");
   const TrigMatrix T = nameEntries(builder, "t", mounted.transposed() * (builder.targetRotation() * tool.transposed()));

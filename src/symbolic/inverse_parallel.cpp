@@ -14,10 +14,13 @@ namespace {
 class ParallelWriter {
  public:
   ParallelWriter(InverseBuilder& builder, const InverseOutline& outline)
-      : builder_(builder), outline_(outline), home_(builder.zeroFrame(7)), target_(builder.identity()) {
-    for (int i = 0; i < 6; ++i) axes_.push_back(outline.reversed ? builder.axis(5 - i, -1) : builder.axis(i, 1));
-    const TrigPose tip = {builder.targetRotation(), builder.targetPoint()};
-    const TrigPose all = tip * home_.inverse();
+      : builder_(builder), outline_(outline), target_(builder.identity()) {
+    const TrigPose to_table = builder.base().inverse();
+    for (int i = 0; i < 6; ++i) {
+      axes_.push_back(outline.reversed ? builder.axis(5 - i, -1) : builder.axis(i, 1));
+      axes_.back().Z = to_table * axes_.back().Z;
+    }
+    const TrigPose all = lastFrame() * (to_table * builder.zeroFrame(6)).inverse();
     target_ = outline.reversed ? all.inverse() : all;
   }
 
@@ -27,8 +30,22 @@ class ParallelWriter {
   }
 
  private:
+  /// Where the table's last frame has to be, seen from its first.
+  TrigPose lastFrame() {
+    TrigPose X = builder_.base().inverse() * TrigPose{builder_.targetRotation(), builder_.targetPoint()} *
+                 builder_.step(6).inverse();
+    builder_.say("The frame on the last axis, base and tool taken off:");
+    const char* names[3] = {"wx", "wy", "wz"};
+    for (int i = 0; i < 3; ++i) {
+      X.p(i, 0) = builder_.named(names[i], X.p(i, 0));
+      for (int j = 0; j < 3; ++j)
+        X.R(i, j) = builder_.named("t" + std::to_string(i + 1) + std::to_string(j + 1), X.R(i, j));
+    }
+    return X;
+  }
+
   const InverseAxis& axis(int place) const { return axes_[static_cast<std::size_t>(place)]; }
-  /// The motion of an axis in the base link.
+  /// The motion of an axis, in the table's first frame.
   TrigPose turn(int place) const {
     const InverseAxis& a = axis(place);
     return a.Z * builder_.motion(a) * a.Z.inverse();
@@ -46,29 +63,19 @@ class ParallelWriter {
   TrigMatrix meeting() const { return axis(outline_.reversed ? outline_.pair + 1 : outline_.pair).Z.p; }
 
   bool writeSingle() {
-    builder_.say("The point where the axes of joints " + pairNames() + " meet:");
-    TrigMatrix equation(builder_.ring(), 1, 1);
+    builder_.say("The height, along the parallel axes, of the point where the axes of joints " + pairNames() +
+                 " meet:");
     const TrigMatrix point = meeting();
+    const TrigPose J = turn(outline_.single);
+    TrigPolynomial equation(builder_.ring());
     if (isBefore()) {
-      const TrigMatrix image = times(axis(0).Z.inverse(), times(target_, point));
-      const TrigMatrix w = namePoint(image);
-      const TrigMatrix before = times(builder_.motion(axis(0)).inverse(), w);
-      equation(0, 0) = height(times(axis(0).Z, before)) - height(point);
+      equation = height(times(J.inverse(), times(target_, point))) - height(point);
     } else if (isBetween()) {
-      const TrigMatrix w = namePoint(times(target_, point));
-      equation(0, 0) = height(times(turn(outline_.single), point)) - height(w);
+      equation = height(times(J, point)) - height(times(target_, point));
     } else {
-      const TrigMatrix back = times(target_, times(turn(outline_.single).inverse(), point));
-      equation(0, 0) = height(back) - height(point);
+      equation = height(times(target_, times(J.inverse(), point))) - height(point);
     }
-    builder_.say("Its height along the parallel axes:");
-    return builder_.solve(axis(outline_.single), equation(0, 0));
-  }
-
-  TrigMatrix namePoint(TrigMatrix point) {
-    const char* names[3] = {"wx", "wy", "wz"};
-    for (int i = 0; i < 3; ++i) point(i, 0) = builder_.named(names[i], point(i, 0));
-    return point;
+    return builder_.solve(axis(outline_.single), equation);
   }
 
   std::string pairNames() const {
@@ -140,7 +147,6 @@ class ParallelWriter {
   InverseBuilder& builder_;
   const InverseOutline& outline_;
   std::vector<InverseAxis> axes_;
-  TrigPose home_;
   TrigPose target_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "golden.h"
 #include "ik_arms.h"
+#include "parallel_arms.h"
 #include "screwline/ik/inverse_outline_of.h"
 #include "screwline/ik/task_error.h"
 #include "screwline/kinematics/forward.h"
@@ -104,6 +105,17 @@ TEST(SymbolicInverse, UnreachablePosesHaveNoSolution) {
   EXPECT_GT(poses, 10);
 }
 
+void expectFormulas(const SerialChain& chain, const Task& task) {
+  const std::optional<InverseFormulas> formulas = formulasOf(chain, task);
+  ASSERT_TRUE(formulas.has_value());
+  const InverseKinematics ik(chain, task);
+  const InverseCheck check = checkInverse(*formulas, chain, task, everySolution(ik), 20);
+  EXPECT_EQ(check.poses, 20);
+  EXPECT_TRUE(check.agrees()) << check.missing << " missing, " << check.extra << " extra";
+  EXPECT_LE(check.worst_task, kTask);
+  EXPECT_LE(check.worst_joint, kJoint);
+}
+
 /// Random arms of the closed forms' structures, mounted anyhow, with any tool.
 TEST(SymbolicInverse, FormulasOfRandomArmsGiveTheSolversSolutions) {
   for (const int structure : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}) {
@@ -111,14 +123,16 @@ TEST(SymbolicInverse, FormulasOfRandomArmsGiveTheSolversSolutions) {
       test::ArmMaker maker(100 * seed + static_cast<unsigned>(structure));
       const test::ArmMaker::Arm arm = maker.make(structure);
       SCOPED_TRACE(arm.structure + ", seed " + std::to_string(seed));
-      const std::optional<InverseFormulas> formulas = formulasOf(arm.chain, arm.task);
-      ASSERT_TRUE(formulas.has_value());
-      const InverseKinematics ik(arm.chain, arm.task);
-      const InverseCheck check = checkInverse(*formulas, arm.chain, arm.task, everySolution(ik), 20);
-      EXPECT_TRUE(check.agrees()) << check.missing << " missing, " << check.extra << " extra";
-      EXPECT_LE(check.worst_task, kTask);
-      EXPECT_LE(check.worst_joint, kJoint);
+      expectFormulas(arm.chain, arm.task);
     }
+  }
+}
+
+TEST(SymbolicInverse, FormulasOfThreeParallelAxesAnywhereGiveTheSolversSolutions) {
+  for (int structure = 0; structure < test::ParallelArmMaker::kStructures; structure += 2) {
+    SCOPED_TRACE(test::ParallelArmMaker::name(structure));
+    test::ParallelArmMaker maker(100 + static_cast<unsigned>(structure));
+    expectFormulas(maker.make(structure), Task());
   }
 }
 

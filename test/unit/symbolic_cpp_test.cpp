@@ -26,8 +26,8 @@ constexpr double kAgreement = 1e-12;
 constexpr double kSameSolution = 1e-7;  // [rad, m]
 
 const std::vector<std::string>& robots() {
-  static const std::vector<std::string> names = {"planar_3r", "rrp_spherical", "orienting_3r", "scara", "rrprrr",
-                                                 "puma560",   "stanford_arm",  "kr6_r900",     "ur5",   "panda"};
+  static const std::vector<std::string> names = {"rrp_spherical", "orienting_3r", "scara", "rrprrr",
+                                                 "puma560",       "stanford_arm", "ur5",   "panda"};
   return names;
 }
 
