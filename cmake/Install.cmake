@@ -1,6 +1,6 @@
 # Everything a user needs from the install space. Who adds a library, a node, a tool or a script adds its name here.
 set(libraries screwline_core screwline_ros)
-set(executables frame_broadcaster kinematics_server trajectory_generator)
+set(executables frame_broadcaster kinematics_server recorder trajectory_generator)
 set(python_scripts scripts/report scripts/scenario)
 set(folders launch urdf config)
 

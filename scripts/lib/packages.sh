@@ -8,7 +8,7 @@ BUILD_PACKAGES=(
   ros-std-msgs ros-geometry-msgs ros-sensor-msgs ros-trajectory-msgs ros-visualization-msgs ros-diagnostic-msgs ros-tf2-msgs ros-std-srvs
   libstd-msgs-dev libgeometry-msgs-dev libsensor-msgs-dev libtrajectory-msgs-dev libvisualization-msgs-dev libdiagnostic-msgs-dev
   libtf2-msgs-dev libstd-srvs-dev
-  libroscpp-dev libroscpp-core-dev librosconsole-dev libtf2-dev libtf2-ros-dev
+  libroscpp-dev libroscpp-core-dev librosconsole-dev libtf2-dev libtf2-ros-dev librosbag-storage-dev libtopic-tools-dev
   libeigen3-dev liburdfdom-dev libconsole-bridge-dev libtinyxml2-dev libyaml-cpp-dev libginac-dev
 )
 RUN_PACKAGES=(
@@ -19,7 +19,7 @@ RUN_PACKAGES=(
 )
 LOOK_PACKAGES=(rviz xvfb x11-utils imagemagick libgl1-mesa-dri)
 TEST_PACKAGES=(
-  libgtest-dev libgmock-dev librostest-dev python3-rostest librosbag-dev liborocos-kdl-dev libkdl-parser-dev liburdf-dev catkin-lint
+  libgtest-dev libgmock-dev librostest-dev python3-rostest liborocos-kdl-dev libkdl-parser-dev liburdf-dev catkin-lint
 )
 
 # Adds what only some releases have, or what is meaningful on one only.

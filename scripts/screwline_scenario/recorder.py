@@ -15,18 +15,30 @@ LAST_HANDSHAKES = 0.3  # [s] for publishers to take in what the recorder has sen
 LAST_MESSAGES = 0.5  # [s] for what is on its way when the recording ends
 
 
+def make_room(path):
+    """An earlier bag of the same name makes way. @raise NotRunnable"""
+    try:
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        for leftover in (path, path + '.active'):
+            if os.path.exists(leftover):
+                os.remove(leftover)
+    except OSError as error:
+        raise NotRunnable('no bag can be written: %s' % error)
+
+
 class Recorder:
+    """Records into a path for which there is room: see make_room()."""
+
     def __init__(self, path, motion):
         self.path = path
         self.topics = STATIC_TOPICS + MOTION_TOPICS * motion
         self.master = rosgraph.Master('/scenario')
-        for leftover in (path, path + '.active'):
-            if os.path.exists(leftover):
-                os.remove(leftover)
-        program = roslib.packages.find_node('rosbag', 'record')[0]
-        command = [program, '--output-name=' + path, '--tcpnodelay', '--buffsize=512', *self.topics, '__name:=' + NODE[1:]]
-        os.makedirs(os.path.dirname(path), exist_ok=True)
+        program = roslib.packages.find_node('screwline', 'recorder')[0]
+        command = [program, path, *self.topics, '__name:=' + NODE[1:]]
         self.process = Process(command, os.path.join(log_folder(), 'screwline-record.log'))
+
+    def require_running(self):
+        self.process.require_running()
 
     def wait_for_connections(self):
         wait_until(self.connected, [self.process], 'a publisher of each of %s' % ', '.join(self.topics))
@@ -55,8 +67,7 @@ class Recorder:
             return ''
 
     def stop(self):
-        """The bag is closed when this returns."""
+        """The bag is closed and holds all that came when this returns."""
         time.sleep(LAST_MESSAGES)
-        self.process.stop()
-        if os.path.exists(self.path + '.active') or not os.path.exists(self.path):
-            raise NotRunnable('%s was not closed: %s' % (self.path, self.process.last_lines()))
+        if self.process.stop() != 0:
+            raise NotRunnable('%s is not complete: %s' % (self.path, self.process.last_lines()))

@@ -11,7 +11,7 @@ from .bag_check import check_bag
 from .expectations import compare
 from .expressions import ExpressionError, number
 from .messages import FieldError, fill, lookup, pose_from
-from .recorder import Recorder
+from .recorder import Recorder, make_room
 from .report import formatted, labelled
 from .session import NotRunnable, Session, ensure_master
 
@@ -43,6 +43,8 @@ def run_part(part, report, bag, rviz):
     report.say()
     report.say('robot %s' % part.robot)
     recorder, runner = None, None
+    if bag:
+        make_room(bag)
     session = Session(part, rviz)
     try:
         session.wait_for_services()
@@ -52,6 +54,8 @@ def run_part(part, report, bag, rviz):
         runner = PartRunner(part, report)
         for kind, content in part.steps:
             session.process.require_running()
+            if recorder:
+                recorder.require_running()
             runner.take(kind, content)
     finally:
         close([runner, recorder, session])

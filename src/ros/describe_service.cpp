@@ -46,6 +46,7 @@ Outcome KinematicsServer::describe(const Describe::Request&, Describe::Response&
   }
   if (chain.hasMimic())
     response.notes.emplace_back("mimic joints move with their joints; modified_dh has a row for each");
+  if (conditions_) response.notes.push_back(conditions_->note());
   const auto solver = solverFor(linkOf(chain.tipLink(), "tip_link"), robot_.task);
   response.ik_method = solver->method();
   response.ik_complete = solver->complete();

@@ -35,6 +35,7 @@ KinematicsServer::KinematicsServer(ServedRobot robot, const KinematicsParams& pa
       factors_(kMostSolvers) {}
 
 void KinematicsServer::advertise(ros::NodeHandle& private_node) {
+  conditions_.emplace(robot_.chain, robot_.task, params_.conditions_timeout);
   ros::NodeHandle batch_node(private_node);
   batch_node.setCallbackQueue(&batch_queue_);
   services_ = {

@@ -76,19 +76,34 @@ bool ParamReader::flag(const std::string& key, bool otherwise) {
   return bool(XmlRpcValue(*value));
 }
 
-double ParamReader::number(const std::string& key, double otherwise, double above, double at_most) {
+std::optional<double> ParamReader::givenNumber(const std::string& key) {
   const XmlRpcValue* value = find(key);
-  if (value == nullptr) return otherwise;
+  if (value == nullptr) return std::nullopt;
   const bool whole = value->getType() == XmlRpcValue::TypeInt;
   if (!whole && value->getType() != XmlRpcValue::TypeDouble) {
     refuse(key, std::string(typeName(*value)) + ", it must be a number");
   }
   XmlRpcValue copy(*value);
-  const double number = whole ? int(copy) : double(copy);
-  if (!(number > above && number <= at_most)) {
-    refuse(key, numberText(number) + ", it must be above " + numberText(above) + " and at most " + numberText(at_most));
+  return whole ? int(copy) : double(copy);
+}
+
+double ParamReader::number(const std::string& key, double otherwise, double above, double at_most) {
+  const std::optional<double> number = givenNumber(key);
+  if (!number) return otherwise;
+  if (!(*number > above && *number <= at_most)) {
+    refuse(key,
+           numberText(*number) + ", it must be above " + numberText(above) + " and at most " + numberText(at_most));
   }
-  return number;
+  return *number;
+}
+
+double ParamReader::numberFromZero(const std::string& key, double otherwise, double at_most) {
+  const std::optional<double> number = givenNumber(key);
+  if (!number) return otherwise;
+  if (!(*number >= 0.0 && *number <= at_most)) {
+    refuse(key, numberText(*number) + ", it must be from 0 to " + numberText(at_most));
+  }
+  return *number;
 }
 
 int ParamReader::integer(const std::string& key, int otherwise, int at_least, int at_most) {

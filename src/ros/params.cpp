@@ -47,6 +47,7 @@ KinematicsParams readKinematicsParams(const XmlRpc::XmlRpcValue& private_params)
   params.max_batch = reader.integer(kMaxBatchParam, params.max_batch, 1, kLargestBatch);
   params.batch_timeout = reader.number(kBatchTimeoutParam, params.batch_timeout, 0.0, kMaxMagnitude);
   params.derive_timeout = reader.number(kDeriveTimeoutParam, params.derive_timeout, 0.0, kMaxMagnitude);
+  params.conditions_timeout = reader.numberFromZero(kConditionsTimeoutParam, params.conditions_timeout, kMaxMagnitude);
   params.rotation_weight = reader.number(kRotationWeightParam, params.rotation_weight, 0.0, kMaxMagnitude);
   reader.refuseUnknown();
   return params;

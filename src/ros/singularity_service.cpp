@@ -35,13 +35,19 @@ void fillRank(const TaskRank& rank, AnalyzeSingularity::Response& response) {
 
 }  // namespace
 
+std::shared_ptr<const std::vector<SingularityFactor>> KinematicsServer::factorsFor(const Task& task) const {
+  const std::vector<SingularityFactor>* derived = conditions_ && task == robot_.task ? conditions_->find() : nullptr;
+  // They live as long as the server: nobody owns this pointer.
+  if (derived != nullptr) return {std::shared_ptr<void>(), derived};
+  return factors_.get(rowsOf(task), [&] { return factorsOf(*robot_.chain, task); });
+}
+
 Outcome KinematicsServer::analyze(const AnalyzeSingularity::Request& request,
                                   AnalyzeSingularity::Response& response) const {
   const SerialChain& chain = *robot_.chain;
   const VectorX q = jointPositions(chain, request.joint_state);
   const Task task = toTask(request.task, robot_.task);
-  const auto factors = factors_.get(rowsOf(task), [&] { return factorsOf(chain, task); });
-  const SingularityAnalysis analysis = analyzeSingularity(chain, q, task, *factors);
+  const SingularityAnalysis analysis = analyzeSingularity(chain, q, task, *factorsFor(task));
   response.joint_names = chain.jointNames();
   response.task = task.names();
   response.singular = analysis.singular;

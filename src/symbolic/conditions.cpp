@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kHalfTurn = 12;  ///< Steps of 15 degrees.
 constexpr int kScaleSamples = 12;
+constexpr std::size_t kMostTerms = 100;  ///< Of a determinant without factors that still says more than its name.
 
 bool isJoint(const SymbolTable& symbols, int id) {
   return symbols[id].kind == SymbolKind::kAngle || symbols[id].kind == SymbolKind::kSlide;
@@ -142,19 +143,20 @@ std::vector<ConditionFormula> conditionsOf(const SymbolicChain& symbolic, const 
   return conditions;
 }
 
-std::vector<SingularityFactor> derivedFactorsOf(const SerialChain& chain, const Task& task, const Progress& progress) {
-  std::vector<SingularityFactor> numeric = factorsOf(chain, task);
-  try {
-    const ExactChain exact(chain, {}, progress);
-    const ExactDeterminant& determinant = exactDeterminant(exact, task);
-    const std::vector<TrigPolynomial> shared = sharedFactors(exact, determinant);
-    if (shared.empty()) return numeric;
-    std::vector<SingularityFactor> factors = namedFactors(exact, chain, shared);
-    if (!determinant.isSquare()) factors.insert(factors.end(), numeric.begin(), numeric.end());
-    return factors;
-  } catch (const DerivationStopped&) {
-    return numeric;
+std::optional<std::vector<SingularityFactor>> derivedFactorsOf(const SerialChain& chain, const Task& task,
+                                                               const Progress& progress) {
+  const ExactChain exact(chain, {}, progress);
+  const ExactDeterminant& determinant = exactDeterminant(exact, task);
+  const std::vector<TrigPolynomial> shared = sharedFactors(exact, determinant);
+  const bool never = determinant.isSquare() && !determinant.minors.front().coefficient.isZero();
+  if (shared.empty() && !never) return std::nullopt;
+  std::vector<SingularityFactor> factors = namedFactors(exact, chain, shared);
+  if (factors.size() == 1 && factors.front().terms.size() > kMostTerms) return std::nullopt;
+  if (!determinant.isSquare()) {
+    const std::vector<SingularityFactor> whole = factorsOf(chain, task);
+    factors.insert(factors.end(), whole.begin(), whole.end());
   }
+  return factors;
 }
 
 }  // namespace screwline

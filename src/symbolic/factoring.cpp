@@ -1,6 +1,7 @@
 #include "factoring.h"
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <mutex>
 #include <numeric>
@@ -9,6 +10,7 @@
 
 #include "ginac_bridge.h"
 #include "half_angle.h"
+#include "irreducible.h"
 #include "readable.h"
 
 namespace screwline {
@@ -17,6 +19,7 @@ namespace {
 using GiNaC::ex;
 using Terms = TrigPolynomial::Terms;
 
+constexpr std::chrono::milliseconds kLockPoll{10};
 constexpr std::size_t kLargestFactored = 600;  ///< Terms that factor() is given; its time has no bound.
 
 std::size_t at(int entry) {
@@ -190,6 +193,12 @@ class Factoring {
     divideBy(inside, used.expand());
   }
 
+  std::vector<bool> jointEntries() const {
+    std::vector<bool> result(scalarEntries() + rest_.angles.size(), true);
+    for (std::size_t i = 0; i < scalarEntries(); ++i) result[i] = i >= at(TrigRing::kRadicals) && isSlideEntry(i);
+    return result;
+  }
+
   bool isSlideEntry(std::size_t entry) const { return kindOf(entry - at(TrigRing::kRadicals)) == SymbolKind::kSlide; }
 
   TrigPolynomial angleFactor(const HalfAnglePiece& piece, std::size_t k) const {
@@ -266,7 +275,8 @@ class Factoring {
     bool merged = false;
     ex product = 1;
     std::vector<std::pair<ex, int>> pieces = {{bridge_.expression(rest_.terms), 1}};
-    if (rest_.terms.size() <= kLargestFactored) pieces = ginacFactors(pieces.front().first);
+    if (rest_.terms.size() <= kLargestFactored && !isProvedIrreducible(*ring_, rest_.terms, jointEntries()))
+      pieces = ginacFactors(pieces.front().first);
     for (const auto& [factor, multiplicity] : pieces) {
       HalfAnglePolynomial part = rest_;
       part.terms = bridge_.terms(factor);
@@ -340,7 +350,8 @@ class Factoring {
 }  // namespace
 
 FactoredPolynomial factored(const TrigPolynomial& polynomial, const SymbolTable& symbols) {
-  const std::lock_guard<std::mutex> lock(ginacMutex());
+  std::unique_lock<std::timed_mutex> lock(ginacMutex(), std::defer_lock);
+  while (!lock.try_lock_for(kLockPoll)) polynomial.ring()->poll();  // Who waits can be cancelled.
   return Factoring(polynomial, symbols).run();
 }
 

@@ -14,8 +14,8 @@ std::int64_t integerOf(const GiNaC::numeric& number) {
 
 }  // namespace
 
-std::mutex& ginacMutex() {
-  static std::mutex mutex;
+std::timed_mutex& ginacMutex() {
+  static std::timed_mutex mutex;
   return mutex;
 }
 

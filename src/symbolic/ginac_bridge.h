@@ -12,7 +12,7 @@
 namespace screwline {
 
 /// GiNaC keeps tables without locks: whoever calls it, or holds one of its objects, holds this mutex.
-std::mutex& ginacMutex();
+std::timed_mutex& ginacMutex();
 
 /// Polynomials as GiNaC's expressions and back, one GiNaC symbol for each entry of a key.
 class GinacBridge {

@@ -59,6 +59,12 @@ class ScenarioFailures(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn('no_such_robot', output)
 
+    def test_a_folder_that_can_not_be_written(self):
+        code, output = self.outcome(self.command([GOOD]) + ['--record', '--bag-dir', '/proc/no_such_folder'])
+        self.assertEqual(code, 2)
+        self.assertIn('no bag can be written', output)
+        self.assertIn('/proc/no_such_folder', output)
+
     def test_interrupted(self):
         with subprocess.Popen(self.command(['{wait: 60}']), stdout=subprocess.PIPE, text=True) as child:
             time.sleep(10)

@@ -81,12 +81,15 @@ TEST(KinematicsParams, WrongValuesNameTheBound) {
   expectBad(with("ik_timeout", std::numeric_limits<double>::infinity()), "~ik_timeout is inf");
   expectBad(with("threads", -1), "~threads is -1, it must be from 0 to 1024");
   expectBad(with("max_joints", 65), "~max_joints is 65, it must be from 1 to 64");
+  expectBad(with("conditions_timeout", -0.5), "~conditions_timeout is -0.5, it must be from 0 to");
+  EXPECT_EQ(readKinematicsParams(with("conditions_timeout", 0)).conditions_timeout, 0.0);
   expectBad(with("rotation_weight", -0.1), "~rotation_weight is -0.1");
   expectBad(with("task", texts({})), "~task has no rows");
 }
 
 TEST(KinematicsParams, UnknownKey) {
-  expectBad(with("ik_timout", 0.1), "~ik_timout is no parameter; known are base_link, batch_timeout, derive_timeout");
+  expectBad(with("ik_timout", 0.1),
+            "~ik_timout is no parameter; known are base_link, batch_timeout, conditions_timeout, derive_timeout");
 }
 
 TEST(PlanningLimits, FlagsAreObeyed) {

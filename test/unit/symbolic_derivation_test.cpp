@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "golden.h"
-#include "screwline/kinematics/singularity.h"
 #include "screwline/kinematics/task_selection.h"
 #include "screwline/model/urdf_reader.h"
 #include "screwline/symbolic/derivation.h"
@@ -92,30 +91,6 @@ TEST(SymbolicDerivation, WritesBalancedLatex) {
   }
   EXPECT_EQ(depth, 0);
   EXPECT_NE(latex.find("\\begin{document}"), std::string::npos);
-}
-
-/// The exact factors give the same conditions as the fitted ones, in whatever order.
-TEST(SymbolicFactors, AreThoseOfTheNumericFit) {
-  for (const std::string& name : golden::names()) {
-    const golden::File& file = *golden::load(name);
-    std::vector<std::string> fitted;
-    for (const SingularityFactor& factor : factorsOf(file.table, file.task))
-      fitted.push_back(factor.name + ": " + factor.expression);
-    std::vector<std::string> exact;
-    for (const SingularityFactor& factor : derivedFactorsOf(file.table, file.task, {}))
-      exact.push_back(factor.name + ": " + factor.expression);
-    std::sort(fitted.begin(), fitted.end());
-    std::sort(exact.begin(), exact.end());
-    EXPECT_EQ(exact, fitted) << name;
-  }
-}
-
-TEST(SymbolicFactors, AreNumericWhereTimeIsUp) {
-  const SerialChain chain = robot("ur5");
-  Progress progress;
-  progress.time_limit = 0.0;
-  const auto factors = derivedFactorsOf(chain, deriveTask(chain), progress);
-  EXPECT_EQ(factors.size(), factorsOf(chain, deriveTask(chain)).size());
 }
 
 }  // namespace

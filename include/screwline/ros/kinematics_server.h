@@ -13,6 +13,7 @@
 #include "screwline/ik/inverse_kinematics.h"
 #include "screwline/kinematics/singularity.h"
 #include "screwline/ros/bounded_cache.h"
+#include "screwline/ros/derived_conditions.h"
 #include "screwline/ros/frame_resolver.h"
 #include "screwline/ros/robot_loader.h"
 #include "screwline/ros/service_adapter.h"
@@ -30,7 +31,8 @@ class KinematicsServer {
   KinematicsServer(ServedRobot robot, const KinematicsParams& params, FrameLookup lookup);
 
   /// Offers the services in a private namespace for as long as this lives. Batches and derivations have threads of
-  /// their own: a long one keeps no other question waiting.
+  /// their own: a long one keeps no other question waiting. Begins to derive the singular conditions of the robot's
+  /// task; until they are known, and for other tasks, they are fitted to numbers.
   void advertise(ros::NodeHandle& private_node);
 
   Outcome describe(const Describe::Request& request, Describe::Response& response) const;
@@ -52,6 +54,8 @@ class KinematicsServer {
   /// The same; empty: the tip.
   const Link& linkOrTip(const std::string& name, const std::string& field) const;
   std::shared_ptr<const InverseKinematics> solverFor(const Link& tip, const Task& task) const;
+  /// Those of the conditions: derived where they are known, else fitted.
+  std::shared_ptr<const std::vector<SingularityFactor>> factorsFor(const Task& task) const;
   /// N of a request's N x columns numbers. @throws InputError (`code`; kTooLarge beyond ~max_batch)
   std::size_t batchRows(std::size_t numbers, int columns, const std::string& field, AnswerCode code) const;
   std::vector<Pose> batchTargets(const std::vector<double>& poses) const;
@@ -62,6 +66,7 @@ class KinematicsServer {
   FrameResolver frames_;
   mutable BoundedCache<SolverKey, InverseKinematics> solvers_;
   mutable BoundedCache<std::vector<int>, std::vector<SingularityFactor>> factors_;
+  std::optional<DerivedConditions> conditions_;
   ros::CallbackQueue batch_queue_;
   std::optional<ros::AsyncSpinner> batch_spinner_;
   std::vector<ros::ServiceServer> services_;  // Last: withdrawn before the queue and its threads end.

@@ -5,6 +5,7 @@ namespace screwline {
 namespace ros_bridge {
 
 constexpr char kKinematicsServerNode[] = "kinematics_server";
+constexpr char kRecorderNode[] = "recorder";
 
 // Services of kinematics_server, in its private namespace.
 constexpr char kDescribeService[] = "describe";
@@ -32,6 +33,7 @@ constexpr char kThreadsParam[] = "threads";
 constexpr char kMaxBatchParam[] = "max_batch";
 constexpr char kBatchTimeoutParam[] = "batch_timeout";
 constexpr char kDeriveTimeoutParam[] = "derive_timeout";
+constexpr char kConditionsTimeoutParam[] = "conditions_timeout";
 constexpr char kMaxJointsParam[] = "max_joints";
 constexpr char kRotationWeightParam[] = "rotation_weight";
 

@@ -3,6 +3,7 @@
 
 #include <XmlRpcValue.h>
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ class ParamReader {
   bool flag(const std::string& key, bool otherwise);
   /// In (above, at_most].
   double number(const std::string& key, double otherwise, double above, double at_most);
+  /// In [0, at_most].
+  double numberFromZero(const std::string& key, double otherwise, double at_most);
   /// In [at_least, at_most].
   int integer(const std::string& key, int otherwise, int at_least, int at_most);
 
@@ -37,6 +40,7 @@ class ParamReader {
  private:
   /// The value of a key, or null.
   const XmlRpc::XmlRpcValue* find(const std::string& key);
+  std::optional<double> givenNumber(const std::string& key);
   [[noreturn]] void refuse(const std::string& key, const std::string& what) const;
 
   std::string prefix_;

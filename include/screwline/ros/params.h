@@ -22,12 +22,13 @@ struct RobotParams {
 /// Private parameters of kinematics_server.
 struct KinematicsParams {
   RobotParams robot;
-  double ik_timeout = 0.1;       ///< [s] for what inverse kinematics searches numerically.
-  int threads = 0;               ///< That answer requests; 0: as many as cores.
-  int max_batch = 1000000;       ///< Rows of a batch request.
-  double batch_timeout = 600.0;  ///< [s] for all of a batch of inverse kinematics.
-  double derive_timeout = 60.0;  ///< [s] for the formulas of one request.
-  double rotation_weight = 1.0;  ///< [m/rad] how rotation counts beside translation in one distance.
+  double ik_timeout = 0.1;           ///< [s] for what inverse kinematics searches numerically.
+  int threads = 0;                   ///< That answer requests; 0: as many as cores.
+  int max_batch = 1000000;           ///< Rows of a batch request.
+  double batch_timeout = 600.0;      ///< [s] for all of a batch of inverse kinematics.
+  double derive_timeout = 60.0;      ///< [s] for the formulas of one request.
+  double conditions_timeout = 60.0;  ///< [s] for the singular conditions, in the background; 0: they are not derived.
+  double rotation_weight = 1.0;      ///< [m/rad] how rotation counts beside translation in one distance.
 };
 
 /// @throws ModelError naming the key.

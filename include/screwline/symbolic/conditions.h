@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_SYMBOLIC_CONDITIONS_H
 #define SCREWLINE_SYMBOLIC_CONDITIONS_H
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,13 @@ struct ConditionFormula {
 /// The conditions of a square task, or those that all minors of another share. @throws DerivationStopped
 std::vector<ConditionFormula> conditionsOf(const SymbolicChain& symbolic, const SerialChain& chain, const Task& task);
 
-/// As factorsOf(chain, task), which fits numbers, but from the exact factors: for analyzeSingularity(). Where a
-/// derivation does not come to its end in the progress's time, or finds no explicit factors, the numeric ones. Takes
-/// milliseconds for most arms, longer for general ones: to be called in the background.
-std::vector<SingularityFactor> derivedFactorsOf(const SerialChain& chain, const Task& task, const Progress& progress);
+/// As factorsOf(chain, task), which fits numbers, but from the exact factors: for analyzeSingularity(). Where the task
+/// is not square the factors that all minors share, and the determinant. None where exact factors tell no more: minors
+/// that share none, a determinant that is always zero or one factor of more than a hundred terms. Takes milliseconds
+/// for most arms, up to a second for general ones.
+/// @throws DerivationStopped
+std::optional<std::vector<SingularityFactor>> derivedFactorsOf(const SerialChain& chain, const Task& task,
+                                                               const Progress& progress);
 
 }  // namespace screwline
 

@@ -1,0 +1,78 @@
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <csignal>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "../ros/bag_recorder.h"
+#include "screwline/ros/node_constants.h"
+#include "screwline/ros/node_main.h"
+
+namespace {
+
+using namespace screwline::ros_bridge;
+
+constexpr std::uint32_t kUnbounded = 0;  // Queue: a busy machine delays messages, it drops none.
+constexpr double kPollPeriod = 0.05;     // s, in which a signal is seen.
+
+volatile std::sig_atomic_t stop_requested = 0;
+
+void requestStop(int) {
+  stop_requested = 1;
+}
+
+/// In the order given: what follows from another topic's messages comes before it, and then has no gap at the start.
+std::vector<ros::Subscriber> listen(ros::NodeHandle& node, const std::vector<std::string>& names,
+                                    BagRecorder& recorder) {
+  using Message = const BagRecorder::Message&;
+  std::vector<ros::Subscriber> subscribers;
+  std::set<std::string> known;
+  for (const std::string& name : names) {
+    const std::string topic = node.resolveName(name);
+    if (!known.insert(topic).second) continue;
+    const boost::function<void(Message)> callback = [&recorder, topic](Message message) {
+      recorder.take(topic, message);
+    };
+    subscribers.push_back(
+        node.subscribe<Message>(topic, kUnbounded, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+  }
+  return subscribers;
+}
+
+void record(const std::string& path, const std::vector<std::string>& names) {
+  // roscpp's own handler would drop what waits in the queue; it has none for SIGTERM.
+  std::signal(SIGINT, requestStop);
+  std::signal(SIGTERM, requestStop);
+  ros::NodeHandle node;
+  BagRecorder recorder(path);
+  std::vector<ros::Subscriber> subscribers = listen(node, names, recorder);
+  ROS_INFO_STREAM("recording " << subscribers.size() << " topics into " << path);
+
+  ros::CallbackQueue& queue = *ros::getGlobalCallbackQueue();
+  while (ros::ok() && stop_requested == 0 && !recorder.failed()) queue.callAvailable(ros::WallDuration(kPollPeriod));
+  queue.callAvailable();  // What had come before the signal.
+  subscribers.clear();
+  const std::uint64_t count = recorder.close();
+  ROS_INFO_STREAM("closed " << path << ": " << count << " messages");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  ros::removeROSArgs(argc, argv, arguments);
+  if (arguments.size() < 3 || arguments[1].empty() || arguments[1][0] == '-') {
+    std::fputs(
+        "usage: rosrun screwline recorder BAG TOPIC...\n"
+        "Records topics until it is interrupted, then closes the bag.\n"
+        "Exit code: 0 all that came is in the bag, 1 it is not, 2 wrong arguments.\n",
+        stderr);
+    return 2;
+  }
+  return runNode(argc, argv, kRecorderNode, "nothing more is recorded", [&](ros::NodeHandle&) {
+    record(arguments[1], {arguments.begin() + 2, arguments.end()});
+  });
+}
