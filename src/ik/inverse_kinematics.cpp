@@ -91,8 +91,8 @@ struct InverseKinematics::Implementation {
             IkResult& result) const;
   bool gather(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   bool isAlmostSingular(const IkAnswer& solution) const;
-  void addMate(const IkRequest& request, const IkAnswer& solution, const SolutionBuilder& builder,
-               std::vector<IkAnswer>& mates) const;
+  bool addMates(const IkAnswer& solution, const Pose& target, const SolutionBuilder& builder,
+                std::vector<IkAnswer>& mates) const;
   void admit(const IkRequest& request, IkAnswer solution, const SolutionBuilder& builder, IkResult& result) const;
   void dropRepeated(IkResult& result) const;
   void doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
@@ -167,7 +167,7 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, const std
       continue;
     }
     if (chain.size() > task.size()) describeRedundancy(chain, task, *solution);
-    if (isAlmostSingular(*solution)) addMate(request, *solution, builder, mates);
+    if (isAlmostSingular(*solution) && addMates(*solution, request.target, builder, mates)) continue;
     admit(request, std::move(*solution), builder, result);
   }
   for (IkAnswer& mate : mates) {
@@ -179,14 +179,19 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, const std
   return all;
 }
 
-/// The solution that an almost singular one is about to meet.
-void InverseKinematics::Implementation::addMate(const IkRequest& request, const IkAnswer& solution,
-                                                const SolutionBuilder& builder, std::vector<IkAnswer>& mates) const {
-  const std::optional<VectorX> mate = mateOf(chain, task, request.target, solution.position);
-  if (!mate || largestDifference(chain, *mate, solution.position) <= kSameSolution) return;
-  Candidate candidate = searched(*mate);
-  candidate.branch = solution.branch;
-  if (std::optional<IkAnswer> built = builder.build(candidate)) mates.push_back(std::move(*built));
+/// The solutions that an almost singular one is about to meet. True where they stand for it, which rounding has put
+/// between them.
+bool InverseKinematics::Implementation::addMates(const IkAnswer& solution, const Pose& target,
+                                                 const SolutionBuilder& builder, std::vector<IkAnswer>& mates) const {
+  const std::vector<VectorX> near = solutionsAbout(chain, task, target, solution.position);
+  const auto isOther = [&](const VectorX& q) { return largestDifference(chain, q, solution.position) > kSameSolution; };
+  for (const VectorX& q : near) {
+    Candidate candidate = searched(q);
+    candidate.branch = solution.branch;
+    if (!isOther(q)) continue;
+    if (std::optional<IkAnswer> built = builder.build(candidate)) mates.push_back(std::move(*built));
+  }
+  return !near.empty() && isOther(near.front());
 }
 
 /// By what costs nothing; mateOf() looks closer.
