@@ -14,6 +14,7 @@ namespace {
 constexpr int kSlices = 64;
 constexpr double kShift = 0.0137;        // Slices avoid the values that people choose.
 constexpr double kSamePoint = 1e-6;      // [rad] A configuration this near to a curve is on it.
+constexpr double kRounding = 1e-13;      // Of residuals; over the gain, of solutions.
 constexpr double kCubicError = 2e-3;     // [rad] of the uncorrected curve between nodes, many times over.
 constexpr double kSliceReach = 1e-3;     // [rad] A slice's solution is this near to the curve at most.
 constexpr double kRegular = 1e-6;        // Gain of a node from which a curve can be followed.
@@ -123,8 +124,10 @@ void ComponentFinder::addValue(double value) {
 bool ComponentFinder::addStart(const Vector7& q, double reach) {
   SelfMotionNode node;
   if (!pose_.correct(q, reach, node)) return false;
+  // Near a singularity rounding leaves open where across the curve a solution lies.
+  const double same = std::clamp(kRounding / node.gain, kSamePoint, kSliceReach);
   for (const SelfMotionCurve& curve : curves_) {
-    if (distanceToCurve(pose_, curve, node.q, 0.05) <= kSamePoint) return true;
+    if (distanceToCurve(pose_, curve, node.q, 0.05) <= same) return true;
   }
   SelfMotionCurve curve;
   if (!traceCurve(pose_, node.q, curve)) return false;
