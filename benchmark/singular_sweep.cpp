@@ -204,6 +204,8 @@ int main(int argc, char** argv) {
       "- lost: the configuration that made the pose is neither among the solutions nor on one of the continua.\n"
       "- missed: a search from %d starts found a solution that is in no answer (one pose of each robot, kind, "
       "offset).\n"
+      "  Solutions are refined to rounding first: beside a continuum all of its members come near to the pose, and are "
+      "none.\n"
       "- merged: two roots farther apart than 4e-6 have one answer. Repeated: one root has two.\n"
       "- not the nearest member: of a continuum, another member is nearer to the seed.\n"
       "- time: mean over the poses, over the mean of the same robot's regular poses.\n",

@@ -1,6 +1,8 @@
 #ifndef SCREWLINE_TEST_SINGULAR_SEARCH_H
 #define SCREWLINE_TEST_SINGULAR_SEARCH_H
 
+#include <Eigen/QR>
+#include <algorithm>
 #include <vector>
 
 #include "ik_gate.h"
@@ -15,20 +17,39 @@ inline const std::vector<double>& singularOffsets() {
   return offsets;
 }
 
+/// Newton's method with long steps until rounding is reached: what does not get there only comes near to the pose, as
+/// all members of a continuum beside the pose do. False there. A chain with as many joints as rows.
+inline bool isTrueSolution(const InverseKinematics& ik, const Pose& target, VectorX& q) {
+  constexpr double kLongestStep = 0.3;  // [rad, m]
+  const double rounding = 1e-14 * (1.0 + ik.chain().characteristicLength());
+  Matrix6X J;
+  for (int k = 0; k < 60; ++k) {
+    const TaskError error = taskError(ik.task(), target, geometricJacobian(ik.chain(), q, J));
+    if (error.norm() <= rounding) return true;
+    const VectorX step = ik.task().select(J).completeOrthogonalDecomposition().solve(ik.task().select(error.twist));
+    q += std::min(1.0, kLongestStep / step.norm()) * step;
+  }
+  return false;
+}
+
 /// Solutions that descents from many starts find for the pose of q and inverse kinematics has not, on no continuum
-/// either. `max_solutions`: of inverse kinematics.
+/// either. `max_solutions`: of inverse kinematics. Of a redundant chain, every start finds another member: the first
+/// few are looked at.
 inline int missedSolutions(const InverseKinematics& ik, const VectorX& q, int restarts, int max_solutions = 0) {
+  constexpr int kMembers = 8;
   const IkGate gate(ik, q, true);
   IkRequest request = gate.request();
   request.max_solutions = max_solutions;
   const IkResult result = ik.solve(request);
+  const bool redundant = ik.chain().size() > ik.task().size();
   SearchOptions options;
-  options.restarts = restarts;
+  options.restarts = redundant ? kMembers : restarts;
   options.timeout = 60.0;
   options.descent.honour_limits = false;
   int missed = 0;
   for (VectorX& found : search(ik.chain(), ik.task(), request.target, {}, options).solutions) {
     const double error = polish(ik.chain(), ik.task(), request.target, found).norm();
+    if (!redundant && !isTrueSolution(ik, request.target, found)) continue;
     // Next to a double root an error is worth its square root.
     const double tolerance = 1e-5 + 4.0 * std::sqrt(error) + placeTolerance(ik.chain(), ik.task(), found);
     if (!gate.isKnown(found, result, tolerance)) ++missed;

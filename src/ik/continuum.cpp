@@ -13,6 +13,9 @@ constexpr double kStep = kPi / 90.0;  // [rad] along a continuum.
 constexpr double kMoves = 1e-7;       // A joint whose share of every tangent is below does not move.
 constexpr double kLimitBand = 1e-9;
 constexpr int kMaxNearestIterations = 30;
+constexpr int kMaxTurnings = 3;
+constexpr int kCoarse = 24;           // Members all the way round that the nearest is looked for from.
+constexpr double kStationary = 1e-6;  // Of the distance, along the continuum.
 
 double stepOf(const SerialChain& chain, int joint) {
   return chain.joint(joint).isRevolute() ? kStep : 0.02 * chain.characteristicLength();
@@ -90,6 +93,68 @@ VectorX nearestMember(const SerialChain& chain, const Family& family, const Vect
     if (gain <= 1e-15 * (1.0 + distance)) break;
   }
   return q;
+}
+
+/// Where the distance to the seed has its least value about `q`, by golden section: for what Gauss-Newton leaves, far
+/// from the seed and where a continuum is bent.
+VectorX goldenNearest(const SerialChain& chain, const Family& family, double step, const VectorX& q,
+                      const VectorX& seed) {
+  constexpr double kGolden = 0.61803398874989485;
+  const double center = family.parameters(q)[0];
+  VectorX member;
+  const auto distanceAt = [&](double value) {
+    return family.at(VectorX::Constant(1, value), q, member) ? distanceTo(chain, member, seed)
+                                                             : std::numeric_limits<double>::infinity();
+  };
+  double low = center - step;
+  double high = center + step;
+  double a = high - kGolden * (high - low);
+  double b = low + kGolden * (high - low);
+  double at_a = distanceAt(a);
+  double at_b = distanceAt(b);
+  while (high - low > 1e-9) {
+    if (at_a <= at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      at_a = distanceAt(a = high - kGolden * (high - low));
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      at_b = distanceAt(b = low + kGolden * (high - low));
+    }
+  }
+  const bool found = family.at(VectorX::Constant(1, 0.5 * (low + high)), q, member);
+  return found && distanceTo(chain, member, seed) < distanceTo(chain, q, seed) ? member : q;
+}
+
+/// Of members all the way round one turn that is free, the nearest to the seed.
+VectorX coarseNearest(const SerialChain& chain, const Family& family, const Candidate& candidate, const VectorX& seed) {
+  VectorX best = candidate.q;
+  const int joint = candidate.free.front();
+  if (candidate.free.size() != 1 || !chain.joint(joint).isRevolute()) return best;
+  VectorX member = best;
+  for (int i = 1; i < kCoarse; ++i) {
+    const VectorX value = VectorX::Constant(1, candidate.q[joint] + kTwoPi * i / kCoarse);
+    if (family.at(value, member, member) && distanceTo(chain, member, seed) < distanceTo(chain, best, seed))
+      best = member;
+  }
+  return best;
+}
+
+bool isStationary(const Family& family, const VectorX& q, const VectorX& seed) {
+  const MatrixX T = family.tangents(q);
+  return std::abs(T.row(0).normalized().dot(q - seed)) <= kStationary * (1.0 + (q - seed).norm());
+}
+
+VectorX nearestFrom(const SerialChain& chain, const Family& family, const Candidate& candidate, const VectorX& start,
+                    const VectorX& seed) {
+  VectorX q = nearestMember(chain, family, start, seed);
+  // On the way a joint may have come nearer to the seed by another turn.
+  for (int k = 0; k < kMaxTurnings && nearestTurns(chain, q, seed) != q; ++k) q = nearestMember(chain, family, q, seed);
+  if (candidate.free.size() != 1 || isStationary(family, q, seed)) return q;
+  return nearestTurns(chain, goldenNearest(chain, family, stepOf(chain, candidate.free.front()), q, seed), seed);
 }
 
 /// The member within limits nearest to the seed along the first parameter, where `q` itself is not within.
@@ -190,7 +255,13 @@ Continuum describeContinuum(const SerialChain& chain, const Candidate& candidate
                             bool ignore_limits) {
   const Family family(chain, candidate);
   Continuum continuum;
-  VectorX q = nearestMember(chain, family, candidate.q, seed);
+  VectorX q = nearestFrom(chain, family, candidate, coarseNearest(chain, family, candidate, seed), seed);
+  // Where a branch breaks off, at another singularity on the way, its end may be nearest: a place that no limit
+  // explains.
+  if (candidate.free.size() == 1 && !isStationary(family, q, seed)) {
+    const VectorX other = nearestFrom(chain, family, candidate, candidate.q, seed);
+    if (isStationary(family, other, seed)) q = other;
+  }
   if (!ignore_limits && !isWithinLimits(chain, q)) nearestWithinLimits(chain, family, candidate, seed, q);
   continuum.nearest = chooseTurns(chain, q, seed, true, ignore_limits, kLimitBand).q;
   continuum.directions = orthonormalRows(family.tangents(continuum.nearest));

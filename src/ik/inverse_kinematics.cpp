@@ -98,8 +98,8 @@ struct InverseKinematics::Implementation {
             IkResult& result) const;
   bool gather(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   bool isAlmostSingular(const IkAnswer& solution) const;
-  void addMate(const IkRequest& request, const IkAnswer& solution, const SolutionBuilder& builder,
-               std::vector<IkAnswer>& mates) const;
+  bool addMates(const IkAnswer& solution, const Pose& target, const SolutionBuilder& builder,
+                std::vector<IkAnswer>& mates) const;
   void admit(const IkRequest& request, IkAnswer solution, const SolutionBuilder& builder, IkResult& result) const;
   void dropRepeated(IkResult& result) const;
   void doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
@@ -182,7 +182,7 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vect
       continue;
     }
     if (chain.size() > task.size() && solution->self_motion.rows() == 0) describeRedundancy(chain, task, *solution);
-    if (isAlmostSingular(*solution)) addMate(request, *solution, builder, mates);
+    if (isAlmostSingular(*solution) && addMates(*solution, request.target, builder, mates)) continue;
     admit(request, std::move(*solution), builder, result);
   }
   for (IkAnswer& mate : mates) {
@@ -194,14 +194,19 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vect
   return all;
 }
 
-/// The solution that an almost singular one is about to meet.
-void InverseKinematics::Implementation::addMate(const IkRequest& request, const IkAnswer& solution,
-                                                const SolutionBuilder& builder, std::vector<IkAnswer>& mates) const {
-  const std::optional<VectorX> mate = mateOf(chain, task, request.target, solution.position);
-  if (!mate || isSameConfiguration(chain, *mate, solution.position)) return;
-  Candidate candidate = searched(*mate);
-  candidate.branch = solution.branch;
-  if (std::optional<IkAnswer> built = builder.build(std::move(candidate))) mates.push_back(std::move(*built));
+/// The solutions that an almost singular one is about to meet. True where they stand for it, which rounding has put
+/// between them.
+bool InverseKinematics::Implementation::addMates(const IkAnswer& solution, const Pose& target,
+                                                 const SolutionBuilder& builder, std::vector<IkAnswer>& mates) const {
+  const std::vector<VectorX> near = solutionsAbout(chain, task, target, solution.position);
+  const auto isOther = [&](const VectorX& q) { return !isSameConfiguration(chain, q, solution.position); };
+  for (const VectorX& q : near) {
+    if (!isOther(q)) continue;
+    Candidate candidate = searched(q);
+    candidate.branch = solution.branch;
+    if (std::optional<IkAnswer> built = builder.build(std::move(candidate))) mates.push_back(std::move(*built));
+  }
+  return !near.empty() && isOther(near.front());
 }
 
 /// By what costs nothing; mateOf() looks closer.

@@ -56,13 +56,45 @@ TEST_P(SingularLaws, EveryPoseIsAnsweredAndNoBranchLost) {
   std::printf("%-16s %4d poses, complete %4d, with continua %4d\n", GetParam(), asked, complete, continua);
 }
 
-/// Where the law holds for every kind and offset; of the others benchmark/singular_sweep tells how far it does.
-const char* const kHeld[] = {"rr_planar",    "rrr_planar", "planar_3r",       "rrr_articulated", "rrp_spherical",
-                             "rrp_offset",   "scara",      "rpp_cylindrical", "spherical_wrist", "orienting_3r",
-                             "prrr_arm",     "scara_600",  "prrr_column",     "youbot_arm",      "rrprrr",
-                             "stanford_arm", "jaco2_6dof", "six_r_16"};
+/// Every robot with as many joints as rows. With more poses than one of each kind and offset a few are seen where the
+/// law does not hold: benchmark/singular_sweep counts them.
+const char* const kHeld[] = {"rr_planar",     "rrr_planar",   "planar_3r", "rrr_articulated", "rrr_orthogonal",
+                             "rrp_spherical", "rrp_offset",   "scara",     "rpp_cylindrical", "spherical_wrist",
+                             "orienting_3r",  "prrr_arm",     "scara_600", "prrr_column",     "youbot_arm",
+                             "rrprrr",        "stanford_arm", "puma560",   "kr6_r900",        "irb6640",
+                             "m10ia",         "ur5",          "ur10e",     "jaco2_6dof",      "six_r_16"};
 
 INSTANTIATE_TEST_SUITE_P(Robots, SingularLaws, testing::ValuesIn(kHeld));
+
+/// Seven joints: where curves meet some may be missing, and then the list is not said to be complete. Every fourth
+/// offset of these is looked at, in turn from kind to kind.
+class RedundantSingularLaws : public SingularLaws {};
+
+TEST_P(RedundantSingularLaws, EveryPoseIsAnsweredAndNothingMissingIsCalledComplete) {
+  SingularPoses maker(robot_.chain, kSeed);
+  int asked = 0;
+  int lost = 0;
+  std::size_t turn = 0;
+  for (const SingularKind& kind : test::singularKindsOf(robot_.chain, robot_.task)) {
+    for (std::size_t i = turn++ % 4; i < test::singularOffsets().size(); i += 4) {
+      const double offset = test::singularOffsets()[i];
+      const std::optional<VectorX> q = maker.make(kind, offset);
+      if (!q) continue;
+      const GateVerdict verdict = IkGate(ik_, *q, true).judge(push());
+      const bool lawful = verdict.answered && verdict.seed_first && verdict.finite && verdict.worst_error < 1e-9 &&
+                          !verdict.proved_unreachable && !verdict.threw && !(verdict.lost && verdict.complete);
+      EXPECT_TRUE(lawful) << kind.name << " + " << offset << ", seed " << kSeed << "\n  " << verdict.message
+                          << "\n  lost " << verdict.lost << ", complete " << verdict.complete << ", worst error "
+                          << verdict.worst_error << "\n  q = " << q->transpose();
+      ++asked;
+      lost += verdict.lost ? 1 : 0;
+    }
+  }
+  std::printf("%-16s %4d poses, lost and said so %4d\n", GetParam(), asked, lost);
+  EXPECT_LE(lost, asked / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, RedundantSingularLaws, testing::Values("panda", "iiwa14", "gen3_7dof"));
 
 TEST(AlwaysSingular, ArmsAreAnswered) {
   for (const test::AlwaysSingularArm& arm : test::alwaysSingularArms()) {

@@ -7,6 +7,10 @@
 namespace screwline {
 namespace {
 
+constexpr double kNearAxis = 1e-2;  ///< Distance to one axis over that to the other.
+
+constexpr double kBesideAxis = 1e-5;
+
 /// Where the second axis puts the point, across it, and how many signs of the root there are.
 struct Placement {
   double x = 0.0;
@@ -44,9 +48,18 @@ Placement placementOf(const PositionGeometry& g, const TurnGoal& goal, double al
     place.signs = 1;
     return place;
   }
-  // Axes that meet: what is across both, from the radius about axis 1, which keeps its digits near the axis.
-  const double tilt = std::abs(goal.height * g.cosine - along) / g.sine;
-  place.y = squareRootOrNone((goal.radius - tilt) * (goal.radius + tilt), (goal.radius + tilt) * g.length);
+  // Axes that meet: what is across both, from the distance to that axis which the point is nearer to: it keeps its
+  // digits.
+  if (turned < kNearAxis * goal.radius) {
+    // Out of reach by so little that rounding may have done it is measured as far from the axis.
+    const double square = (turned - std::abs(place.x)) * (turned + std::abs(place.x));
+    place.y = square > kDoubleRootTolerance * turned * g.length     ? std::sqrt(square)
+              : square >= -kReachTolerance * goal.radius * g.length ? 0.0
+                                                                    : -1.0;
+  } else {
+    const double tilt = std::abs(goal.height * g.cosine - along) / g.sine;
+    place.y = squareRootOrNone((goal.radius - tilt) * (goal.radius + tilt), (goal.radius + tilt) * g.length);
+  }
   place.signs = place.y < 0.0 ? 0 : (place.y > 0.0 ? 2 : 1);
   return place;
 }
@@ -75,6 +88,27 @@ void addTurns(const PositionGeometry& g, const Vector3& carried, const TurnGoal&
     finishFirstTurn(g, g.axes[1].point + along * g.axes[1].direction + x * g.ex + y * g.ey, goal, preferred, solution);
     out.add(solution);
   }
+}
+
+/// A double root of axes that meet, with the point next to axis 2: how far, the root tells no better than to the square
+/// root of rounding, the height above it does. Both turns that bring the point as far as that; false where it is as it
+/// should be.
+bool addBesideAxis(const PositionGeometry& g, const CarriedPoint& carried, const TurnGoal& goal,
+                   const Preferred& preferred, const PositionSolution& partial, PositionSolutions& out) {
+  if (g.kind != PositionKind::kMeetingAxes || carried.slide || partial.sign[0] != 0 || partial.free[2]) return false;
+  const Vector3 u = carried.at(0.0, partial.turn[2]) - g.axes[1].point;
+  const double along = g.axes[1].direction.dot(u);
+  const double turned = std::hypot(g.ex.dot(u), g.ey.dot(u));
+  const double least = std::abs(goal.height - g.cosine * along) / g.sine;
+  const double arm = carried.e.norm();
+  if (turned >= least || least > kBesideAxis * std::min(goal.radius, arm)) return false;
+  const double turn = std::sqrt((least - turned) * (least + turned)) / arm;
+  for (double side : {turn, -turn}) {
+    PositionSolution solution = partial;
+    solution.turn[2] = solution.turn[2] * turnBy(side);
+    addTurns(g, carried.at(0.0, solution.turn[2]), goal, preferred, solution, out);
+  }
+  return true;
 }
 
 /// A slide carried by two axes that meet: |center + q e - meeting point| = reach, as (q - foot)^2 = height^2 + radius^2
@@ -125,6 +159,7 @@ void solveTurns(const PositionGeometry& g, const Vector3& start, const Vector3& 
     roots = solveSquares(squared(x, carried.slide), squared(y, carried.slide), rest, goal.scale, carried.slide);
   }
   forEachRoot(roots, g, 2, preferred, [&](const PositionSolution& solution) {
+    if (addBesideAxis(g, carried, goal, preferred, solution, out)) return;
     addTurns(g, carried.at(solution.q[2], solution.turn[2]), goal, preferred, solution, out);
   });
 }

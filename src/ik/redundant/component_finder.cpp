@@ -14,11 +14,16 @@ namespace {
 constexpr int kSlices = 64;
 constexpr double kShift = 0.0137;        // Slices avoid the values that people choose.
 constexpr double kSamePoint = 1e-6;      // [rad] A configuration this near to a curve is on it.
+constexpr double kRounding = 1e-13;      // Of residuals; over the gain, of solutions.
 constexpr double kCubicError = 2e-3;     // [rad] of the uncorrected curve between nodes, many times over.
 constexpr double kSliceReach = 1e-3;     // [rad] A slice's solution is this near to the curve at most.
 constexpr double kRegular = 1e-6;        // Gain of a node from which a curve can be followed.
 constexpr std::size_t kMostPoints = 16;  // Solutions without a curve that are told.
-constexpr double kFarthestSlide = 4.0;   // [lengths] Where a slide has no limits.
+constexpr std::size_t kMostCrossings = 32;
+constexpr double kSameCrossing = 1e-3;  // [rad]
+constexpr int kCrossingWays = 12;       // Directions in the plane of a crossing's tangents, half a turn of them.
+constexpr double kCrossingStep = 0.02;  // [rad] from the crossing, where its branches are apart.
+constexpr double kFarthestSlide = 4.0;  // [lengths] Where a slide has no limits.
 
 /// Share at which the cubic's coordinate has a value between those of its ends.
 double shareAt(const SelfMotionNode& a, const SelfMotionNode& b, int joint, double value) {
@@ -119,14 +124,34 @@ void ComponentFinder::addValue(double value) {
 bool ComponentFinder::addStart(const Vector7& q, double reach) {
   SelfMotionNode node;
   if (!pose_.correct(q, reach, node)) return false;
+  // Near a singularity rounding leaves open where across the curve a solution lies.
+  const double same = std::clamp(kRounding / node.gain, kSamePoint, kSliceReach);
   for (const SelfMotionCurve& curve : curves_) {
-    if (distanceToCurve(pose_, curve, node.q, 0.05) <= kSamePoint) return true;
+    if (distanceToCurve(pose_, curve, node.q, 0.05) <= same) return true;
   }
   SelfMotionCurve curve;
   if (!traceCurve(pose_, node.q, curve)) return false;
   coverGrid(curve);
+  const std::vector<Vector7> crossings = curve.crossings;
   curves_.push_back(std::move(curve));
+  for (const Vector7& crossing : crossings) branchOut(crossing);
   return true;
+}
+
+/// Where curves cross, the Jacobian has one dimension less: tangents of all of them lie in the plane that it
+/// annihilates. A curve along which the parameter stands still is met by no slice, but crosses another.
+void ComponentFinder::branchOut(const Vector7& crossing) {
+  const bool known = std::any_of(crossings_.begin(), crossings_.end(), [&](const Vector7& other) {
+    return pose_.norm(pose_.difference(other, crossing)) <= kSameCrossing;
+  });
+  if (known || crossings_.size() >= kMostCrossings) return;
+  crossings_.push_back(crossing);
+  const Eigen::Matrix<double, kRedundantJoints, 2> plane = pose_.weakestPlane(crossing);
+  for (int k = 0; k < 2 * kCrossingWays; ++k) {
+    const double angle = kPi * k / kCrossingWays;
+    const Vector7 way = std::cos(angle) * plane.col(0) + std::sin(angle) * plane.col(1);
+    addStart(crossing + kCrossingStep * way, kCrossingStep);
+  }
 }
 
 void ComponentFinder::coverGrid(const SelfMotionCurve& curve) {

@@ -19,7 +19,8 @@ class ComponentFinder {
   void addExtrema(const ReachMargin& margin);
   /// One slice more.
   void addValue(double value);
-  /// Traces from a solution that lies on no curve yet. False where it is no solution, or singular.
+  /// Traces from a solution that lies on no curve yet, and the curves that cross that one. False where it is no
+  /// solution, or singular.
   bool addStart(const Vector7& q, double reach);
   /// Joins what has been found about continua inside of slices into sheets.
   void finishSheets();
@@ -36,6 +37,7 @@ class ComponentFinder {
   };
 
   void coverGrid(const SelfMotionCurve& curve);
+  void branchOut(const Vector7& crossing);
   void addFree(const Free& free);
   void addSheet(const RedundantSolution& member, bool parameter_moves);
   void addPoint(const RedundantSolution& solution);
@@ -49,6 +51,7 @@ class ComponentFinder {
   std::vector<RedundantSolutions> grid_;
   std::vector<unsigned> covered_;  ///< Per slice of the grid, bit k: its solution k lies on a curve.
   std::vector<SelfMotionCurve> curves_;
+  std::vector<Vector7> crossings_;  ///< Those that were branched out from.
   std::vector<Free> free_;
   std::vector<SelfMotionSheet> sheets_;
   int unexplained_ = 0;

@@ -9,7 +9,8 @@ namespace screwline {
 namespace {
 
 constexpr double kBand = 1e-10;  // [rad, m] beyond a limit that rounding may bring.
-constexpr int kBestCount = 6;    // Of the places where a maximum may be, so many are refined.
+constexpr int kMostHalvings = 10;
+constexpr int kBestCount = 6;  // Of the places where a maximum may be, so many are refined.
 
 double turnedValue(const Joint& joint, double value, double seed, bool ignore_limits) {
   const JointLimits& limits = joint.limits;
@@ -64,6 +65,55 @@ SelfMotionNode refine(PoseCurve& pose, const SelfMotionNode& a, const SelfMotion
   return fx >= fy ? left : right;
 }
 
+/// The nearest of the points considered.
+class NearestSearch {
+ public:
+  NearestSearch(PoseCurve& pose, const Vector7& seed, bool ignore_limits, const SelfMotionNode& first)
+      : pose_(pose), seed_(seed), ignore_limits_(ignore_limits), best_(first), least_(off(first).norm()) {}
+
+  const SelfMotionNode& best() const { return best_; }
+
+  void consider(const SelfMotionNode& node) {
+    const double distance = off(node).norm();
+    if (distance >= least_) return;
+    least_ = distance;
+    best_ = node;
+  }
+
+  /// The least distance between two nodes: where its derivative vanishes. Where a joint is nearer to the seed by
+  /// another turn at one of them, there may be more than one: the parts are looked at.
+  void refine(const SelfMotionNode& a, const SelfMotionNode& b, int depth) {
+    // No point between is nearer than this.
+    const double stretch = std::max(1.0, pose_.chain().characteristicLength());
+    if (std::min(off(a).norm(), off(b).norm()) - stretch * (b.arc - a.arc) >= least_) return;
+    SelfMotionNode node;
+    if (depth < kMostHalvings && (shift(a) - shift(b)).cwiseAbs().maxCoeff() > kPi) {
+      if (!pose_.between(a, b, 0.5, node)) return;
+      consider(node);
+      refine(a, node, depth + 1);
+      refine(node, b, depth + 1);
+      return;
+    }
+    const auto slope = [this](const SelfMotionNode& at) { return off(at).dot(at.tangent); };
+    if (slope(a) < 0.0 && slope(b) > 0.0 && nodeAtZero(pose_, a, b, slope, node)) consider(node);
+  }
+
+ private:
+  Vector7 off(const SelfMotionNode& node) const {
+    return turnedTo(pose_.chain(), node.q, seed_, ignore_limits_) - seed_;
+  }
+  /// Full turns.
+  Vector7 shift(const SelfMotionNode& node) const {
+    return turnedTo(pose_.chain(), node.q, seed_, ignore_limits_) - node.q;
+  }
+
+  PoseCurve& pose_;
+  const Vector7& seed_;
+  bool ignore_limits_;
+  SelfMotionNode best_;
+  double least_;
+};
+
 }  // namespace
 
 Vector7 turnedTo(const SerialChain& chain, const Vector7& q, const Vector7& seed, bool ignore_limits) {
@@ -74,33 +124,10 @@ Vector7 turnedTo(const SerialChain& chain, const Vector7& q, const Vector7& seed
 
 SelfMotionNode nearestNode(PoseCurve& pose, const SelfMotionCurve& curve, const SelfMotionInterval& interval,
                            const Vector7& seed, bool ignore_limits) {
-  const auto off = [&](const SelfMotionNode& node) {
-    return Vector7(turnedTo(pose.chain(), node.q, seed, ignore_limits) - seed);
-  };
-  SelfMotionNode best = nodeAt(curve, interval.first);
-  double least = off(best).norm();
-  for (int i = interval.first; i <= interval.last; ++i) {
-    const SelfMotionNode node = nodeAt(curve, i);
-    const double distance = off(node).norm();
-    if (distance >= least) continue;
-    least = distance;
-    best = node;
-  }
-  const auto slope = [&](const SelfMotionNode& node) { return off(node).dot(node.tangent); };
-  for (int i = interval.first; i < interval.last; ++i) {
-    const SelfMotionNode a = nodeAt(curve, i);
-    const SelfMotionNode b = nodeAt(curve, i + 1);
-    // No point between is nearer than this.
-    const double stretch = std::max(1.0, pose.chain().characteristicLength());
-    if (std::min(off(a).norm(), off(b).norm()) - stretch * (b.arc - a.arc) >= least) continue;
-    SelfMotionNode node;
-    if (!(slope(a) < 0.0 && slope(b) > 0.0) || !nodeAtZero(pose, a, b, slope, node)) continue;
-    const double distance = off(node).norm();
-    if (distance >= least) continue;
-    least = distance;
-    best = node;
-  }
-  return best;
+  NearestSearch search(pose, seed, ignore_limits, nodeAt(curve, interval.first));
+  for (int i = interval.first; i <= interval.last; ++i) search.consider(nodeAt(curve, i));
+  for (int i = interval.first; i < interval.last; ++i) search.refine(nodeAt(curve, i), nodeAt(curve, i + 1), 0);
+  return search.best();
 }
 
 SelfMotionNode largestNode(PoseCurve& pose, const SelfMotionCurve& curve, const SelfMotionInterval& interval,

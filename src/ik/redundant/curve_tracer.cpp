@@ -24,10 +24,10 @@ class Walk {
   }
 
   /// True where it comes back to the start.
-  bool run(std::vector<SelfMotionNode>& nodes, bool& crosses) {
+  bool run(std::vector<SelfMotionNode>& nodes, std::vector<Vector7>& crossings) {
     nodes.push_back(at_);
     while (static_cast<int>(nodes.size()) < kMaxCurveNodes) {
-      const bool passed_start = step(crosses);
+      const bool passed_start = step(crossings);
       if (passed_start) {
         nodes.push_back(closing(nodes.back()));
         return true;
@@ -40,18 +40,18 @@ class Walk {
 
  private:
   /// One step on; true where it passes the start.
-  bool step(bool& crosses) {
+  bool step(std::vector<Vector7>& crossings) {
     for (;;) {
       SelfMotionNode next;
       const bool shortest = h_ <= kShortestStep;
       const Vector7 ahead = at_.q + h_ * at_.tangent + 0.5 * h_ * h_ * bend_;
       const bool found = pose_.correct(ahead, (shortest ? 1.0 : kMostCorrection) * h_, next);
       double along = found ? way_ * pose_.dot(next.tangent, at_.tangent) : 0.0;
-      if (shortest && (!found || std::abs(along) < 0.5)) return jump(crosses);
+      if (shortest && (!found || std::abs(along) < 0.5)) return jump(crossings);
       if (shortest && along < 0.0) {
         way_ = -way_;
         along = -along;
-        crosses = true;
+        crossings.push_back(0.5 * (at_.q + next.q));
       }
       if (along < std::cos(kMostTurn)) {
         if (!shortest) {
@@ -76,17 +76,18 @@ class Walk {
   }
 
   /// Straight over a singular point that no step comes near enough to.
-  bool jump(bool& crosses) {
-    crosses = true;
+  bool jump(std::vector<Vector7>& crossings) {
     for (double h : {3e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
       SelfMotionNode next;
       if (!pose_.correct(at_.q + h * at_.tangent, 0.5 * h, next)) continue;
       const double along = pose_.dot(next.tangent, at_.tangent);
       if (std::abs(along) < 0.9) continue;
+      crossings.push_back(0.5 * (at_.q + next.q));
       way_ = std::copysign(1.0, along);
       h_ = 1e-6;
       return take(next, std::abs(along));
     }
+    crossings.push_back(at_.q);
     ended_ = true;
     return false;
   }
@@ -202,10 +203,12 @@ bool traceCurve(PoseCurve& pose, const Vector7& start, SelfMotionCurve& curve) {
   SelfMotionNode node;
   if (!pose.correct(start, 0.1, node) || node.gain <= kSingularStart) return false;
   curve = SelfMotionCurve();
-  curve.closed = Walk(pose, node, 1.0).run(curve.nodes, curve.crosses);
+  curve.closed = Walk(pose, node, 1.0).run(curve.nodes, curve.crossings);
+  curve.crosses = !curve.crossings.empty();
   if (curve.closed) return true;
   std::vector<SelfMotionNode> behind;
-  Walk(pose, node, -1.0).run(behind, curve.crosses);
+  Walk(pose, node, -1.0).run(behind, curve.crossings);
+  curve.crosses = !curve.crossings.empty();
   std::reverse(behind.begin(), behind.end());
   const double length = behind.front().arc;
   for (SelfMotionNode& n : behind) {

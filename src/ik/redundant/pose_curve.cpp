@@ -1,6 +1,7 @@
 #include "pose_curve.h"
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <cmath>
 
 #include "screwline/spatial/rotation.h"
@@ -82,6 +83,15 @@ bool PoseCurve::correct(const Vector7& q, double reach, SelfMotionNode& node) {
     before = size;
   }
   return before <= kGoodEnough;
+}
+
+Eigen::Matrix<double, kRedundantJoints, 2> PoseCurve::weakestPlane(const Vector7& q) {
+  geometricJacobian(chain_, q, J_);
+  J_.topRows<3>() /= chain_.characteristicLength();
+  Eigen::Matrix<double, 6, kRedundantJoints> scaled;
+  for (int k = 0; k < kRedundantJoints; ++k) scaled.col(k) = unit_[k] * J_.col(k);
+  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, kRedundantJoints>> svd(scaled, Eigen::ComputeFullV);
+  return unit_.asDiagonal() * svd.matrixV().rightCols<2>();
 }
 
 bool PoseCurve::between(const SelfMotionNode& a, const SelfMotionNode& b, double share, SelfMotionNode& node) {

@@ -24,6 +24,9 @@ class PoseCurve {
   /// way of `a`'s.
   bool between(const SelfMotionNode& a, const SelfMotionNode& b, double share, SelfMotionNode& node);
 
+  /// The two directions that move the tip least at a configuration, of norm 1 and across each other.
+  Eigen::Matrix<double, kRedundantJoints, 2> weakestPlane(const Vector7& q);
+
   double dot(const Vector7& a, const Vector7& b) const { return a.cwiseProduct(weight_).dot(b); }
   double norm(const Vector7& a) const { return std::sqrt(dot(a, a)); }
   /// b - a, revolute joints by the nearest full turn.
