@@ -9,6 +9,7 @@
 #include "screwline/kinematics/forward.h"
 #include "screwline/trajectory/format.h"
 #include "screwline/trajectory/profile.h"
+#include "turn_in_place.h"
 
 namespace screwline {
 namespace {
@@ -28,15 +29,6 @@ std::vector<Pose> posesOf(const ProfileContext& context) {
                                                  : waypoint.pose);
   }
   return poses;
-}
-
-bool flag(const ProfileContext& context, const std::string& name, bool fallback) {
-  const auto value = context.parameter(name);
-  if (!value) return fallback;
-  if (*value != 0.0 && *value != 1.0) {
-    throw InputError(AnswerCode::kInvalidGoal, "parameter '" + name + "' is " + number(*value) + ", it must be 0 or 1");
-  }
-  return *value == 1.0;
 }
 
 ToolPathOptions optionsOf(const ProfileContext& context) {
@@ -62,17 +54,40 @@ VectorX goalOf(const FollowedBranch& branch) {
   return FollowedPath(branch.curve).at(branch.curve.duration()).head(branch.start.size());
 }
 
-/// Whether the branch is one that the waypoints allow.
-bool isWanted(const ProfileContext& context, const FollowedBranch& branch, const FollowRequest& question) {
-  const auto& waypoints = context.waypoints();
-  if (question.from_seed && (branch.start - question.seed).cwiseAbs().maxCoeff() > kSameJoints) return false;
-  return matchesBranch(branch.branch, waypoints.front().branch);
+/// What the joints may do besides following the path: in a singularity the tip can stay while they turn.
+enum class Turns { kNone, kInPlace };
+
+bool sameJoints(const VectorX& difference) {
+  return difference.cwiseAbs().maxCoeff() <= kSameJoints;
 }
 
-bool arrives(const ProfileContext& context, const FollowedBranch& branch) {
+bool turnsBetween(const ProfileContext& context, const VectorX& from, const VectorX& to) {
+  const double tolerance = kCoarse * std::max(1.0, chainOf(context).characteristicLength());
+  return keepsPose(chainOf(context), context.request.kinematics->task(), from, to, tolerance);
+}
+
+/// Whether the branch is one that the waypoints allow.
+bool isWanted(const ProfileContext& context, const FollowedBranch& branch, Turns turns) {
+  const PathPoint& first = context.waypoints().front();
+  if (!matchesBranch(branch.branch, first.branch)) return false;
+  return first.position.size() == 0 || sameJoints(branch.start - first.position) ||
+         (turns == Turns::kInPlace && turnsBetween(context, first.position, branch.start));
+}
+
+/// The goal's values as given, or in the turns of continuous joints in which the branch arrives.
+VectorX wantedGoal(const ProfileContext& context, const FollowedBranch& branch) {
+  VectorX goal = context.waypoints().back().position;
+  if (context.flag(kKeepTurnsParameter, false)) return goal;
+  const VectorX off = goalOf(branch) - goal;
+  for (const int joint : context.request.continuous) goal[joint] += off[joint] - std::remainder(off[joint], kTwoPi);
+  return goal;
+}
+
+bool arrives(const ProfileContext& context, const FollowedBranch& branch, Turns turns) {
   const PathPoint& last = context.waypoints().back();
   if (last.position.size() == 0) return matchesBranch(branch.goal_branch, last.branch);
-  return (goalOf(branch) - last.position).cwiseAbs().maxCoeff() <= kSameJoints;
+  const VectorX goal = wantedGoal(context, branch);
+  return sameJoints(goalOf(branch) - goal) || (turns == Turns::kInPlace && turnsBetween(context, goalOf(branch), goal));
 }
 
 std::string nameOf(const FollowedBranch& branch) {
@@ -111,22 +126,22 @@ std::string account(const FollowResult& result) {
 }
 
 /// The first branch, nearest to the start, that does what the waypoints ask for; null: none.
-const FollowedBranch* choose(const ProfileContext& context, const FollowResult& result, const FollowRequest& question) {
+const FollowedBranch* choose(const ProfileContext& context, const FollowResult& result, Turns turns) {
   for (const FollowedBranch& branch : result.branches) {
-    if (branch.end == BranchEnd::kGoal && isWanted(context, branch, question) && arrives(context, branch))
+    if (branch.end == BranchEnd::kGoal && isWanted(context, branch, turns) && arrives(context, branch, turns))
       return &branch;
   }
   return nullptr;
 }
 
-[[noreturn]] void refuse(const ProfileContext& context, const FollowResult& result, const FollowRequest& question) {
+[[noreturn]] void refuse(const ProfileContext& context, const FollowResult& result) {
   if (result.branches.empty()) {
     throw InputError(AnswerCode::kNoIkSolution, "waypoints[0].pose: " + result.note);
   }
   std::string why = "no branch carries the whole path";
   bool begins = false;
   for (const FollowedBranch& branch : result.branches) {
-    if (!isWanted(context, branch, question)) continue;
+    if (!isWanted(context, branch, Turns::kNone)) continue;
     if (!begins) why = "from the start, on branch " + nameOf(branch) + ", " + branch.reason;
     if (branch.end == BranchEnd::kGoal) {
       why = "the path arrives on branch '" + branch.goal_branch + "' at other joint values than waypoints[" +
@@ -135,10 +150,11 @@ const FollowedBranch* choose(const ProfileContext& context, const FollowResult& 
     begins = true;
   }
   if (!begins) {
-    const std::string& wish = context.waypoints().front().branch;
-    why = question.from_seed ? "no branch begins at the joint values of waypoints[0], which are singular: the joints "
-                               "would have to turn there before the tip can move"
-                             : "no branch begins as waypoints[0].branch '" + wish + "' asks";
+    const bool joints = context.waypoints().front().position.size() > 0;
+    why = joints ? "no branch begins at the joint values of waypoints[0], which are singular: the joints would have to "
+                   "turn there before the tip can move, and none of the branches that carry the path is reached so; "
+                   "give waypoints[0] as a pose"
+                 : "no branch begins as waypoints[0].branch '" + context.waypoints().front().branch + "' asks";
   }
   throw InputError(AnswerCode::kPathNotContinuous,
                    "profile '" + context.request.profile + "': " + why + "; " + account(result));
@@ -230,51 +246,128 @@ ProfileDraft hold(const ProfileContext& context, const std::vector<Pose>& poses)
   return draft;
 }
 
-ProfileDraft follow(const ProfileContext& context, const ToolPath& path, const std::vector<Pose>& poses, bool all_met) {
-  requireAskable(context, poses);
-  if (path.length() == 0.0) return hold(context, poses);
+struct Choice {
+  FollowResult result;
+  const FollowedBranch* branch = nullptr;
+  Turns turns = Turns::kNone;
+};
+
+/// A branch that carries the path; within a coarser tolerance, or with the joints turned in place, where none does
+/// else.
+Choice chooseBranch(const ProfileContext& context, const ToolPath& path) {
   FollowRequest question;
   question.seed = seedOf(context);
   question.from_seed = context.waypoints().front().position.size() > 0;
   question.timeout = context.request.ik_timeout;
-  question.tolerance = kFine;
-  FollowResult result = followPath(*context.request.kinematics, path, question);
-  const FollowedBranch* branch = choose(context, result, question);
-  if (branch == nullptr && !result.branches.empty()) {
-    question.tolerance = kCoarse;
-    FollowResult coarse = followPath(*context.request.kinematics, path, question);
-    if (choose(context, coarse, question) != nullptr) result = std::move(coarse);
-    branch = choose(context, result, question);
+  const bool joints = question.from_seed || context.waypoints().back().position.size() > 0;
+  Choice choice;
+  for (const Turns turns : {Turns::kNone, Turns::kInPlace}) {
+    if (turns == Turns::kInPlace && !joints) break;
+    if (turns == Turns::kInPlace) question.from_seed = false;
+    for (const double tolerance : {kFine, kCoarse}) {
+      question.tolerance = tolerance;
+      FollowResult result = followPath(*context.request.kinematics, path, question);
+      const bool nothing = result.branches.empty();
+      const bool found = choose(context, result, turns) != nullptr;
+      if (found || choice.result.branches.empty()) choice.result = std::move(result);
+      choice.turns = turns;
+      if (found) choice.branch = choose(context, choice.result, turns);
+      if (found || nothing) return choice;
+    }
   }
-  if (branch == nullptr) refuse(context, result, question);
+  return choice;
+}
 
-  const FollowedPath followed(branch->curve);
-  const auto singularities = singularitiesAlong(chainOf(context), context.request.kinematics->task(), branch->curve);
+/// The branch's curve with the turns in place that lead to it and on from it.
+FollowedPath withTurns(const ProfileContext& context, const ToolPath& path, const Choice& choice) {
+  const FollowedBranch& branch = *choice.branch;
+  if (choice.turns == Turns::kNone) return FollowedPath(branch.curve);
+  PiecewisePolynomial curve = branch.curve;
+  double lead = 0.0;
+  double tail = 0.0;
+  const VectorX& first = context.waypoints().front().position;
+  if (first.size() > 0 && !sameJoints(branch.start - first)) {
+    const PiecewisePolynomial turn = turnInPlace(first, branch.start, 0.0);
+    lead = turn.duration();
+    curve = concatenate(turn, curve);
+  }
+  if (context.waypoints().back().position.size() > 0) {
+    const VectorX goal = wantedGoal(context, branch);
+    if (!sameJoints(goalOf(branch) - goal)) {
+      const PiecewisePolynomial turn = turnInPlace(goalOf(branch), goal, path.length());
+      tail = turn.duration();
+      curve = concatenate(curve, turn);
+    }
+  }
+  if (lead + tail > 0.0 && !context.request.time_law.empty()) {
+    throw InputError(AnswerCode::kPathNotContinuous,
+                     "time_law is '" + context.request.time_law +
+                         "', the joints have to turn in place at a singular end, where the tip's way stands still: "
+                         "leave time_law empty, or give that waypoint as a pose");
+  }
+  return FollowedPath(std::move(curve), lead, tail);
+}
+
+ProfileDraft follow(const ProfileContext& context, const ToolPath& path, const std::vector<Pose>& poses, bool all_met) {
+  requireAskable(context, poses);
+  if (path.length() == 0.0) return hold(context, poses);
+  const Choice choice = chooseBranch(context, path);
+  if (choice.branch == nullptr) refuse(context, choice.result);
+  const FollowedPath followed = withTurns(context, path, choice);
+  auto singularities = singularitiesAlong(chainOf(context), context.request.kinematics->task(), choice.branch->curve);
+  for (PassedSingularity& place : singularities) place.arc += followed.lead();
   TimedPath timed = context.request.time_law.empty() ? timeOptimally(context, path, followed, singularities)
                                                      : timeByLaw(context, path, followed);
   ProfileDraft draft{std::move(timed.trajectory), std::move(timed.waypoint_times), std::move(timed.notes), {}};
-  draft.notes.insert(draft.notes.begin(), "on branch " + nameOf(*branch) + "; " + account(result));
+  draft.notes.insert(draft.notes.begin(), "on branch " + nameOf(*choice.branch) + "; " + account(choice.result));
   draft.notes.push_back(measured(context, path, followed));
   draft.waypoints = solutionsOf(context, path, poses, followed, all_met);
   return draft;
+}
+
+/// How corners are passed, and which of them no blend of that size fits.
+void noteBlends(const ToolPath& path, const std::vector<Pose>& poses, double radius, std::vector<std::string>& notes) {
+  double most = 0.0;
+  double shortest = 2.0 * radius;
+  std::size_t narrow = 0;
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    const double line = (poses[k].p - poses[k - 1].p).norm();
+    if (k + 1 < poses.size()) most = std::max(most, (path.pose(path.waypoints()[k]).p - poses[k].p).norm());
+    if (poses.size() < 3 || line == 0.0 || line >= shortest) continue;
+    shortest = line;
+    narrow = k;
+  }
+  std::string text = "corners are blended within blend_radius " + number(radius) + " m, the tip passes them at up to " +
+                     number(most) + " m";
+  if (path.parts() > 1) {
+    text += "; it stops at " + std::to_string(path.parts() - 1) + " where it only turns before or behind";
+  }
+  if (narrow > 0) {
+    text += "; blend_radius is more than half of the line to " + indexed("waypoints", narrow) + " and is reduced to " +
+            number(0.5 * shortest) + " m there";
+  }
+  notes.push_back(text);
 }
 
 }  // namespace
 
 ProfileDraft buildCartesianLine(const ProfileContext& context) {
   ToolPathOptions options = optionsOf(context);
-  options.screw = flag(context, "screw", false);
+  options.screw = context.flag("screw", false);
   options.blend_radius = context.parameter("blend_radius", 0.0);
   const std::vector<Pose> poses = posesOf(context);
-  return follow(context, linesThrough(poses, options), poses, options.blend_radius == 0.0);
+  const ToolPath path = linesThrough(poses, options);
+  ProfileDraft draft = follow(context, path, poses, options.blend_radius == 0.0);
+  if (options.blend_radius > 0.0 && path.length() > 0.0) noteBlends(path, poses, options.blend_radius, draft.notes);
+  return draft;
 }
 
 ProfileDraft buildCartesianArc(const ProfileContext& context) {
   const ToolPathOptions options = optionsOf(context);
   ArcOptions arc;
-  arc.centre = flag(context, "centre", false);
-  arc.long_way = flag(context, "long_way", false);
-  arc.via_orientation = flag(context, "via_orientation", true);
+  arc.centre = context.flag("centre", false);
+  arc.long_way = context.flag("long_way", false);
+  arc.via_orientation = context.flag("via_orientation", true);
   std::vector<Pose> poses = posesOf(context);
   const ToolPath path = arcThrough(poses, arc, options);
   // A centre is no pose of the path: what is met is the middle of the arc.
