@@ -12,7 +12,7 @@ constexpr double kGain = 1e-6;       ///< What a step has to gain: less is not w
 constexpr double kNarrowest = 1e-3;  ///< Of the longest segment.
 constexpr double kBalanced = 1e-7;   ///< Of the use of limits.
 constexpr long kMostMotions = 600;   ///< Looked at in one search.
-constexpr long kMostWork = 400000;   ///< Pieces times joints, in units of a cubic.
+constexpr long kMostWork = 1200000;  ///< Pieces times joints, in units of a cubic.
 constexpr int kFirstRounds = 40;     ///< Of balancing.
 constexpr int kRounds = 12;          ///< The same, from a balanced state.
 constexpr double kDamping = 0.4;
@@ -137,10 +137,13 @@ class SegmentSearch {
 
   /// Lengths so that segment k uses targets[k] of the limits, from the given ones. Keeps the best on the way.
   bool balance(VectorX lengths, const VectorX& targets, int rounds) {
+    constexpr double kWorse = 1.02;  // The step before was too long: splines of high degree answer far away.
     double damping = kDamping;
     double before = std::numeric_limits<double>::infinity();
     bool gained = false;
     VectorX use;
+    VectorX last;
+    VectorX off;
     for (int round = 0; round < rounds && !exhausted(); ++round) {
       const double duration = use_.measure(lengths, use);
       if (!(duration > 0.0) || !std::isfinite(duration)) break;
@@ -150,8 +153,13 @@ class SegmentSearch {
         gained = true;
       }
       if (duration > before) damping = std::max(0.03, 0.6 * damping);
+      if (duration > kWorse * before) {
+        lengths = shifted(last, damping * off);
+        continue;
+      }
       before = duration;
-      const VectorX off = (use.array() / use.maxCoeff() / targets.array()).max(0.3).log();
+      last = lengths;
+      off = (use.array() / use.maxCoeff() / targets.array()).max(0.3).log();
       if (off.cwiseAbs().maxCoeff() < kBalanced) break;
       lengths = shifted(lengths, damping * off);
     }
