@@ -57,6 +57,29 @@ std::vector<Leg> legsThrough(const MatrixX& positions, const Limits& limits) {
   return legs;
 }
 
+/// [s] From rest to rest along all legs with a stop at each end.
+double stopDuration(const std::vector<Leg>& legs) {
+  double sum = 0.0;
+  for (const Leg& leg : legs) {
+    const double ramps = leg.speed * leg.speed / leg.acceleration;
+    sum += ramps < leg.length ? leg.length / leg.speed + leg.speed / leg.acceleration
+                              : 2.0 * std::sqrt(leg.length / leg.acceleration);
+  }
+  return sum;
+}
+
+/// A blend takes at least this of the whole duration: the instants of a shorter one would be rounded to more than the
+/// limits tolerate. Gentler then, or slower where its reach is bounded.
+constexpr double kShortestBlend = 1e-6;
+
+void takeAtLeast(double time, Corner& corner) {
+  const double speed = std::sqrt(corner.square);
+  if (corner.rest == 0.0 || !std::isfinite(speed) || speed * corner.rest >= time) return;
+  const double bounded = std::min(speed, 2.0 * corner.bound / time);
+  corner.square = bounded * bounded;
+  corner.rest = time / bounded;
+}
+
 Corner cornerBetween(const Leg& before, const Leg& after, const Limits& limits, double radius) {
   Corner corner;
   corner.bend = after.direction - before.direction;
@@ -81,7 +104,11 @@ double reachable(const Corner& corner, const Corner& neighbour, const Leg& leg) 
 /// Corners between the legs, with one of rest at either end.
 std::vector<Corner> cornersOf(const std::vector<Leg>& legs, const Limits& limits, double radius) {
   std::vector<Corner> corners(legs.size() + 1);
-  for (std::size_t k = 1; k < legs.size(); ++k) corners[k] = cornerBetween(legs[k - 1], legs[k], limits, radius);
+  const double shortest = kShortestBlend * stopDuration(legs);
+  for (std::size_t k = 1; k < legs.size(); ++k) {
+    corners[k] = cornerBetween(legs[k - 1], legs[k], limits, radius);
+    takeAtLeast(shortest, corners[k]);
+  }
   for (std::size_t k = legs.size() - 1; k > 0; --k) {
     corners[k].square = std::min(corners[k].square, reachable(corners[k], corners[k + 1], legs[k]));
   }

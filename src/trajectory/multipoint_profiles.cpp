@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "screwline/exception.h"
 #include "screwline/trajectory/blend.h"
@@ -127,21 +128,48 @@ void noteBlends(const BlendedLines& lines, double radius, std::vector<std::strin
                   number(least) + " at " + indexed("waypoints", narrowest));
 }
 
-/// The shortest blended motion, all of it slower where a longer duration is given.
-ProfileDraft blendedTrapezoids(const ProfileContext& context, double radius) {
-  BlendedLines lines = blendLines(positionsOf(context.waypoints()), context.limits, radius);
-  const LimitUse use = tightestUse(JointTrajectory::piecewise(lines.motion), context.limits);
-  const double shortest = noLessThanShortest(lines.motion.duration() * std::max(1.0, use.stretch));
-  const double duration = context.duration > 0.0 ? context.duration : shortest;
-  if (duration < shortest * (1.0 - kLimitTolerance)) {
-    throw InputError(AnswerCode::kLimitsInfeasible,
-                     "profile 'multipoint_trapezoidal' in " + number(duration) + " s with blend_radius " +
-                         number(radius) + ": the shortest feasible duration is " + number(shortest) + " s");
-  }
+void lengthen(BlendedLines& lines, double duration) {
   const double factor = duration / lines.motion.duration();
   for (double& t : lines.motion.breaks) t *= factor;
   for (double& t : lines.times) t *= factor;
   lines.motion.breaks.back() = lines.times.back() = duration;
+}
+
+/// Instants are rounded to the resolution of the whole duration, which a very short blend may feel: longer by some
+/// parts in 1e8 then, until the limits hold.
+void holdLimits(BlendedLines& lines, const Limits& limits) {
+  constexpr int kMostRounds = 30;
+  lengthen(lines, noLessThanShortest(lines.motion.duration()));
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double excess = tightestUse(JointTrajectory::piecewise(lines.motion), limits).stretch - 1.0;
+    if (excess <= 0.1 * kLimitTolerance) return;
+    lengthen(lines, lines.motion.duration() * (1.0 + 2.0 * excess));
+  }
+}
+
+/// Whether rounding has left the blends what they are for: waypoints that all but coincide make pieces that are too
+/// short to be timed.
+bool isSound(const BlendedLines& lines, double with_stops) {
+  constexpr double kSlower = 1e-5;
+  constexpr double kStep = 1e-8;
+  for (int j = 0; j < lines.motion.joints; ++j) {
+    if (!(stepInside(lines.motion, j, 1) <= kStep)) return false;
+  }
+  return lines.motion.duration() <= with_stops * (1.0 + kSlower);
+}
+
+/// The shortest blended motion, all of it slower where a longer duration is given. Nothing where it is not sound.
+std::optional<ProfileDraft> blendedTrapezoids(const ProfileContext& context, double radius, double with_stops) {
+  BlendedLines lines = blendLines(positionsOf(context.waypoints()), context.limits, radius);
+  holdLimits(lines, context.limits);
+  if (!isSound(lines, with_stops)) return std::nullopt;
+  const double shortest = lines.motion.duration();
+  if (context.duration > 0.0 && context.duration < shortest * (1.0 - kLimitTolerance)) {
+    throw InputError(AnswerCode::kLimitsInfeasible,
+                     "profile 'multipoint_trapezoidal' in " + number(context.duration) + " s with blend_radius " +
+                         number(radius) + ": the shortest feasible duration is " + number(shortest) + " s");
+  }
+  if (context.duration > 0.0) lengthen(lines, context.duration);
   ProfileDraft draft{JointTrajectory::piecewise(std::move(lines.motion)), std::move(lines.times), {}};
   noteBlends(lines, radius, draft.notes);
   return draft;
@@ -152,13 +180,16 @@ ProfileDraft blendedTrapezoids(const ProfileContext& context, double radius) {
 ProfileDraft buildMultipointTrapezoidal(const ProfileContext& context) {
   const double radius = blendRadius(context);
   if (nothingMoves(context.waypoints())) return holdStill(context);
-  if (radius > 0.0) return blendedTrapezoids(context, radius);
   const auto& waypoints = context.waypoints();
   std::vector<double> shortest;
   std::size_t last_given = 0;
   for (std::size_t k = 1; k < waypoints.size(); ++k) {
     shortest.push_back(shortestTrapezoid(waypoints[k].position - waypoints[k - 1].position, context.limits).duration);
     if (waypoints[k].time > 0.0) last_given = k;
+  }
+  if (radius > 0.0) {
+    const double with_stops = std::accumulate(shortest.begin(), shortest.end(), 0.0);
+    if (auto draft = blendedTrapezoids(context, radius, with_stops)) return std::move(*draft);
   }
   // Each segment knows its own shortest time, so a free tail takes their sum: nothing to scale or to search.
   ProfileContext timed = context;
@@ -167,7 +198,10 @@ ProfileDraft buildMultipointTrapezoidal(const ProfileContext& context) {
         std::accumulate(shortest.begin() + static_cast<long>(last_given), shortest.end(), waypoints[last_given].time);
   }
   const auto build = [&](const std::vector<double>& times) { return trapezoidsThrough(context, times); };
-  return meetingVias(fitTimes(timed, build, shortest, true));
+  ProfileDraft draft = fitTimes(timed, build, shortest, true);
+  if (radius > 0.0)
+    draft.notes.push_back("waypoints all but coincide, blends would be too short to be timed: at rest in each instead");
+  return meetingVias(std::move(draft));
 }
 
 ProfileDraft buildMultipointCubic(const ProfileContext& context) {

@@ -168,6 +168,40 @@ TEST(JointBlend, WhatIsTooLargeIsReducedAndSaidAndWhatIsWrongIsRefused) {
   EXPECT_EQ(stops.trajectory.duration(), plan(request("multipoint_trapezoidal", way, limits)).trajectory.duration());
 }
 
+TEST(JointBlend, AnyRadiusAndAnyWayIsPlannedOrRefusedInWords) {
+  constexpr unsigned kSeed = 83;
+  Random random(kSeed);
+  int planned = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const int joints = random.integer(1, 4);
+    std::vector<VectorX> way = randomWay(random, joints, random.integer(3, 7));
+    for (std::size_t k = 1; k < way.size(); ++k) {  // Some all but repeated, some all but straight on.
+      const double near = std::pow(10.0, random.integer(-13, -3));
+      if (random.integer(0, 4) == 0) way[k] = way[k - 1] + near * random.vector(joints, -1.0, 1.0);
+      if (k > 1 && random.integer(0, 4) == 0)
+        way[k] = 2.0 * way[k - 1] - way[k - 2] + near * random.vector(joints, -1.0, 1.0);
+    }
+    Limits limits = randomLimits(random, joints);
+    if (random.integer(0, 3) == 0) limits.velocity[0] = HUGE_VAL;
+    if (random.integer(0, 9) == 0) limits.velocity[0] = 1e-4;
+    const double radius = std::pow(10.0, random.uniform(-14.0, 5.0));
+    const std::string what = "seed 83, trial " + std::to_string(trial);
+    try {
+      const JointTrajectory motion = plan(blended(way, limits, radius)).trajectory;
+      double stops = 0.0;
+      for (std::size_t k = 1; k < way.size(); ++k)
+        stops += plan(request("trapezoidal", {way[k - 1], way[k]}, limits)).trajectory.duration();
+      EXPECT_LE(motion.duration(), stops * (1.0 + 2e-5)) << what << ", radius " << radius;
+      ++planned;
+    } catch (const InputError& error) {
+      ASSERT_GT(std::string(error.what()).size(), 10U) << what;
+    } catch (const std::exception& error) {
+      FAIL() << what << ": " << error.what();
+    }
+  }
+  EXPECT_GT(planned, 2500);
+}
+
 TEST(JointBlend, TheCheckSeesAWayThatLeavesTheLines) {
   const std::vector<VectorX> way{vector({0.0, 0.0}), vector({1.0, 0.0}), vector({1.0, 1.0})};
   const Limits limits = limitsOf(2, 1.0, 4.0, 40.0);
