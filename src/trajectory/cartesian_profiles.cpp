@@ -137,6 +137,10 @@ ProfileDraft follow(const ProfileContext& context, const ToolPath& path, const s
   draft.notes.insert(draft.notes.begin(), describe(choice));
   draft.notes.push_back(measured(context, path, followed));
   draft.waypoints = solutionsOf(context, path, poses, followed, all_met);
+  const VectorX& goal = context.waypoints().back().position;
+  if (goal.size() > 0 && (draft.waypoints.back() - goal).cwiseAbs().maxCoeff() > kPi) {
+    draft.notes.push_back("a continuous joint arrives in another turn than the last waypoint's");
+  }
   return draft;
 }
 

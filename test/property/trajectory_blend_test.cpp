@@ -283,6 +283,25 @@ TEST(TurnInPlace, WithoutASingularityJointValuesElsewhereAreRefused) {
   EXPECT_EQ(errorOf(question), AnswerCode::kPathNotContinuous);
 }
 
+TEST(CartesianGoal, AContinuousJointMayArriveInAnotherTurn) {
+  const Arm arm("rrr_planar");
+  const VectorX start = vector({0.3, 0.9, 0.4});
+  VectorX goal = vector({0.5, 0.8, 0.7});
+  PlanRequest question = arm.request("cartesian_line", {{}, {}}, start);
+  question.waypoints.front().position = start;
+  question.waypoints.back().position = goal;
+  const double duration = plan(question).trajectory.duration();
+  question.waypoints.back().position[2] += kTwoPi;
+  EXPECT_EQ(errorOf(question), AnswerCode::kPathNotContinuous);
+  question.continuous = {2};
+  const PlanResult result = plan(question);
+  EXPECT_LT((result.waypoints.back() - goal).norm(), 1e-6);
+  EXPECT_NEAR(result.trajectory.duration(), duration, 1e-9);
+  EXPECT_NE(joined(result.notes).find("in another turn"), std::string::npos) << joined(result.notes);
+  question.parameters = {{"keep_turns", 1.0}};
+  EXPECT_EQ(errorOf(question), AnswerCode::kPathNotContinuous);
+}
+
 TEST(CartesianBlend, TheMessageSaysWhatTheCornersAre) {
   const Arm arm("puma560");
   const VectorX q = vector({0.3, -0.7, 0.6, 0.4, 0.6, -0.9});
