@@ -137,6 +137,9 @@ PlanRequest TrajectoryPlanner::toPlanRequest(const PlanTrajectory::Request& requ
   PlanRequest result;
   result.profile = request.profile;
   result.limits = limitsOfRequest(request);
+  for (int j = 0; j < robot_.chain->size(); ++j) {
+    if (robot_.chain->joint(j).type == JointType::kContinuous) result.continuous.push_back(j);
+  }
   result.duration = request.duration;
   result.sample_period = request.sample_period;
   result.velocity_scaling = factor(request.velocity_scaling, "velocity_scaling");

@@ -55,12 +55,13 @@ class BandedSystem {
   BandedSystem(Eigen::Index size, int degree, Eigen::Index joints)
       : half_(degree), band_(MatrixX::Zero(2 * degree + 1, size)), right_(MatrixX::Zero(joints, size)) {}
 
-  /// Row: derivative `order` of the spline at t equals `value`. Scaled by its largest entry: derivatives are of another
-  /// magnitude.
+  /// Row: derivative `order` by time of the spline at t equals `value`. By the local time of the span, and scaled by
+  /// its largest entry: derivatives are of another magnitude.
   void setRow(Eigen::Index row, const Bspline& spline, double t, int order, const VectorX& value) {
     const std::size_t span = spanAt(spline.knots, spline.degree, t);
     SpanBasis basis = basisOnSpan(spline.knots, spline.degree, span);
-    const double u = (t - spline.knots[span]) / (spline.knots[span + 1] - spline.knots[span]);
+    const double length = spline.knots[span + 1] - spline.knots[span];
+    const double u = (t - spline.knots[span]) / length;
     std::array<double, kMostBasis> entries{};
     double largest = 0.0;
     for (std::size_t i = 0; i <= static_cast<std::size_t>(spline.degree); ++i) {
@@ -72,7 +73,7 @@ class BandedSystem {
       const Eigen::Index column = static_cast<Eigen::Index>(span) - spline.degree + i;
       if (std::abs(column - row) <= half_) at(row, column) = entries[static_cast<std::size_t>(i)] / largest;
     }
-    right_.col(row) = value / largest;
+    right_.col(row) = value * (std::pow(length, order) / largest);
   }
 
   MatrixX solve() {
@@ -153,16 +154,48 @@ PiecewisePolynomial piecesOf(const Bspline& spline) {
   return motion;
 }
 
-Bspline interpolatingBspline(int degree, const std::vector<double>& times, const MatrixX& positions) {
+void meetEnds(const SplineEnds& ends, int count, Bspline& spline) {
+  const Eigen::Index n = spline.control.rows();
+  const Eigen::Index size = spline.control.cols();
+  const std::size_t last_knot = spline.knots.size() - 1;
+  for (const bool at_end : {false, true}) {
+    // Derivatives by the time from this end on inwards; knots likewise.
+    const double sign = at_end ? -1.0 : 1.0;
+    const auto knot = [&](int i) {
+      const std::size_t k = static_cast<std::size_t>(i);
+      return at_end ? spline.knots[last_knot] - spline.knots[last_knot - k] : spline.knots[k];
+    };
+    const VectorX& velocity = at_end ? ends.last_velocity : ends.first_velocity;
+    const VectorX& acceleration = at_end ? ends.last_acceleration : ends.first_acceleration;
+    // row[r]: control point i of derivative r, for the present i; i = 0 are the derivatives themselves.
+    std::vector<VectorX> row(static_cast<std::size_t>(count), VectorX::Zero(n));
+    row[0] = spline.control.col(at_end ? size - 1 : 0);
+    if (velocity.size() > 0) row[1] = sign * velocity;
+    if (acceleration.size() > 0) row[2] = acceleration;
+    for (int i = 1; i < count; ++i) {
+      for (int r = 0; r + i < count; ++r) {
+        const double width = knot(i + spline.degree) - knot(i + r);
+        row[static_cast<std::size_t>(r)] += row[static_cast<std::size_t>(r) + 1] * width / (spline.degree - r);
+      }
+      spline.control.col(at_end ? size - 1 - i : i) = row[0];
+    }
+  }
+}
+
+Bspline interpolatingBspline(int degree, const std::vector<double>& times, const MatrixX& positions,
+                             const SplineEnds& ends) {
   const int rest_orders = degree < 6 ? 2 : 3;
   const Eigen::Index size = positions.cols() + 2 * rest_orders;
   const VectorX zero = VectorX::Zero(positions.rows());
+  const auto orZero = [&](const VectorX& values) -> const VectorX& { return values.size() > 0 ? values : zero; };
+  const VectorX first[] = {positions.col(0), orZero(ends.first_velocity), orZero(ends.first_acceleration), zero};
+  const VectorX last[] = {positions.col(positions.cols() - 1), orZero(ends.last_velocity),
+                          orZero(ends.last_acceleration), zero};
   Bspline spline{degree, clampedKnots(degree, interpolationKnots(degree, times), times.back()), {}};
   BandedSystem system(size, degree, positions.rows());
   for (int order = 0; order <= rest_orders; ++order) {
-    system.setRow(order, spline, 0.0, order, order == 0 ? VectorX(positions.col(0)) : zero);
-    system.setRow(size - 1 - order, spline, times.back(), order,
-                  order == 0 ? VectorX(positions.col(positions.cols() - 1)) : zero);
+    system.setRow(order, spline, 0.0, order, first[order]);
+    system.setRow(size - 1 - order, spline, times.back(), order, last[order]);
   }
   for (Eigen::Index k = 1; k + 1 < positions.cols(); ++k) {
     system.setRow(k + rest_orders, spline, times[static_cast<std::size_t>(k)], 0, positions.col(k));

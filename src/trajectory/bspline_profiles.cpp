@@ -46,45 +46,76 @@ double instantOf(const Bspline& spline, std::size_t control) {
   return sum / spline.degree;
 }
 
+SplineEnds endsOf(const ProfileContext& context) {
+  const PathPoint& first = context.waypoints().front();
+  const PathPoint& last = context.waypoints().back();
+  return {first.velocity, first.acceleration, last.velocity, last.acceleration};
+}
+
+void joinEnds(const SplineEnds& ends, int degree, PiecewisePolynomial& motion) {
+  motion.rest_continuity = copiesForRest(degree) - 1;
+  motion.starts_at_rest = ends.firstRests();
+  motion.ends_at_rest = ends.lastRests();
+}
+
+MatrixX requiredControl(const ProfileContext& context, int degree, bool rest, bool moving) {
+  if (!rest && moving) {
+    throw InputError(AnswerCode::kInvalidGoal,
+                     "parameter 'rest_ends' is 0: the control points alone decide the velocities at the ends, give "
+                     "none in the waypoints");
+  }
+  const MatrixX control = controlPoints(context.waypoints(), rest ? copiesForRest(degree) : 1);
+  if (control.cols() >= degree + 1) return control;
+  throw InputError(AnswerCode::kInvalidGoal, "waypoints has " + std::to_string(control.cols()) +
+                                                 " entries; without rest_ends a B-spline of degree " +
+                                                 std::to_string(degree) + " takes at least " +
+                                                 std::to_string(degree + 1));
+}
+
 }  // namespace
 
 ProfileDraft buildBspline(const ProfileContext& context) {
   if (nothingMoves(context.waypoints())) return holdStill(context);
   const int degree = degreeOf(context);
   const bool rest = context.parameter("rest_ends", 1.0) != 0.0;
-  const MatrixX control = controlPoints(context.waypoints(), rest ? copiesForRest(degree) : 1);
-  if (control.cols() < degree + 1) {
-    throw InputError(AnswerCode::kInvalidGoal, "waypoints has " + std::to_string(control.cols()) +
-                                                   " entries; without rest_ends a B-spline of degree " +
-                                                   std::to_string(degree) + " takes at least " +
-                                                   std::to_string(degree + 1));
-  }
+  const SplineEnds ends = endsOf(context);
+  const bool moving = !ends.firstRests() || !ends.lastRests();
+  const MatrixX control = requiredControl(context, degree, rest, moving);
+  const auto spline = [&](double duration) {
+    Bspline result = uniformBspline(degree, control, duration);
+    if (moving) meetEnds(ends, copiesForRest(degree), result);
+    return result;
+  };
   const auto build = [&](const std::vector<double>& times) {
-    PiecewisePolynomial motion = piecesOf(uniformBspline(degree, control, times.back()));
-    motion.rest_continuity = rest ? copiesForRest(degree) - 1 : 0;
-    motion.starts_at_rest = motion.ends_at_rest = rest;
+    PiecewisePolynomial motion = piecesOf(spline(times.back()));
+    if (rest) {
+      joinEnds(ends, degree, motion);
+    } else {
+      motion.rest_continuity = 0;
+      motion.starts_at_rest = motion.ends_at_rest = false;
+    }
     return JointTrajectory::piecewise(motion);
   };
-  ProfileDraft draft = fitTimes(context, build, segmentWeights(context.waypoints(), context.limits), true);
-  const double duration = draft.trajectory.duration();
-  const Bspline spline = uniformBspline(degree, control, duration);
+  ProfileDraft draft = fitTimes(context, build, segmentWeights(context.waypoints(), context.limits), !moving);
+  const Bspline found = spline(draft.trajectory.duration());
   for (std::size_t k = 1; k + 1 < draft.waypoint_times.size(); ++k) {
-    draft.waypoint_times[k] = instantOf(spline, k + static_cast<std::size_t>(rest ? copiesForRest(degree) - 1 : 0));
+    draft.waypoint_times[k] = instantOf(found, k + static_cast<std::size_t>(rest ? copiesForRest(degree) - 1 : 0));
   }
   if (!rest) draft.notes.push_back("without rest_ends the B-spline starts and ends in motion");
+  if (moving) draft.notes.push_back("with velocities at its ends the B-spline may leave the hull of the waypoints");
   return draft;
 }
 
 ProfileDraft buildBsplineInterpolating(const ProfileContext& context) {
   if (nothingMoves(context.waypoints())) return holdStill(context);
   const int degree = degreeOf(context);
-  const MatrixX positions = positionsOf(context.waypoints());
-  const auto build = [&](const std::vector<double>& times) {
-    PiecewisePolynomial motion = piecesOf(interpolatingBspline(degree, times, positions));
-    motion.rest_continuity = copiesForRest(degree) - 1;
-    return JointTrajectory::piecewise(motion);
+  const SplineEnds ends = endsOf(context);
+  const auto build = [&](const MatrixX& positions, const std::vector<double>& times) {
+    PiecewisePolynomial motion = piecesOf(interpolatingBspline(degree, times, positions, ends));
+    joinEnds(ends, degree, motion);
+    return motion;
   };
-  return meetingVias(fitTimes(context, build, segmentWeights(context.waypoints(), context.limits), true));
+  return meetingVias(fitShape(context, build, ends.firstRests() && ends.lastRests()));
 }
 
 }  // namespace screwline

@@ -57,7 +57,7 @@ void noteSlowing(const ToolPath& path, const FollowedPath& followed, const Retim
   for (const PassedSingularity& place : singularities) {
     double slowest = fastest;
     for (const RetimedPoint& point : timed.points) {
-      const bool inside = point.u > 0.0 && point.u < followed.length();
+      const bool inside = point.u > followed.lead() && point.u < followed.length() - followed.tail();
       if (inside && std::abs(point.u - place.arc) < kAround) slowest = std::min(slowest, rateOf(point));
     }
     const bool stays = place.until_u > place.u;
@@ -71,7 +71,8 @@ void noteSlowing(const ToolPath& path, const FollowedPath& followed, const Retim
 
 }  // namespace
 
-FollowedPath::FollowedPath(PiecewisePolynomial curve) : curve_(std::move(curve)), joints_(curve_.joints - 1) {}
+FollowedPath::FollowedPath(PiecewisePolynomial curve, double lead, double tail)
+    : curve_(std::move(curve)), joints_(curve_.joints - 1), lead_(lead), tail_(tail) {}
 
 VectorX FollowedPath::at(double arc) const {
   VectorX y(joints_ + 1);
@@ -204,6 +205,16 @@ TimedPath timeOptimally(const ProfileContext& context, const ToolPath& path, con
     result.waypoint_times.push_back(duration * tauAt(timed.law, followed.arcAt(u) / followed.length()));
   }
   result.waypoint_times.back() = duration;
+  const auto secondsAt = [&](double arc) { return duration * tauAt(timed.law, arc / followed.length()); };
+  if (followed.lead() > 0.0) {
+    result.notes.push_back("waypoints[0] is singular: the joints turn in place there first, for " +
+                           number(secondsAt(followed.lead())) + " s, as the tip could not leave along the path else");
+  }
+  if (followed.tail() > 0.0) {
+    result.notes.push_back("the goal is singular: the joints turn in place there last, for " +
+                           number(duration - secondsAt(followed.length() - followed.tail())) +
+                           " s, to the values asked for");
+  }
   noteSlowing(path, followed, timed, singularities, result.notes);
   return result;
 }

@@ -13,7 +13,8 @@ namespace screwline {
 /// A followed curve as a path of the joints, by its arc length or by u, with the way between the two.
 class FollowedPath {
  public:
-  explicit FollowedPath(PiecewisePolynomial curve);
+  /// @param lead, tail arc lengths in which the joints turn in place, at either end.
+  explicit FollowedPath(PiecewisePolynomial curve, double lead = 0.0, double tail = 0.0);
 
   JointPath byArc() const;
   /// By u, through points so dense that it is off by at most the tolerance [rad, m].
@@ -21,6 +22,8 @@ class FollowedPath {
   JointPath byU(double tolerance) const;
 
   double length() const { return curve_.duration(); }
+  double lead() const { return lead_; }
+  double tail() const { return tail_; }
   VectorX at(double arc) const;      ///< (q, u)
   VectorX rateAt(double arc) const;  ///< Its derivative.
   double arcAt(double u) const;      ///< Of monotone u, by bisection.
@@ -37,6 +40,8 @@ class FollowedPath {
 
   PiecewisePolynomial curve_;
   int joints_;
+  double lead_;
+  double tail_;
 };
 
 /// The motion along a followed path and the instant of every waypoint.

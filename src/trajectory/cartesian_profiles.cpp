@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "branch_choice.h"
 #include "cartesian_motion.h"
 #include "screwline/exception.h"
-#include "screwline/ik/branch_name.h"
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/trajectory/format.h"
@@ -12,10 +12,6 @@
 
 namespace screwline {
 namespace {
-
-constexpr double kFine = 1e-9;        ///< [rad, characteristic lengths] by which a branch may be off the path.
-constexpr double kCoarse = 1e-6;      ///< The same where none carries the path else: straight through a singularity.
-constexpr double kSameJoints = 1e-5;  ///< [rad, m] between the end of the path and joint values asked for.
 
 const SerialChain& chainOf(const ProfileContext& context) {
   return context.request.kinematics->chain();
@@ -30,15 +26,6 @@ std::vector<Pose> posesOf(const ProfileContext& context) {
   return poses;
 }
 
-bool flag(const ProfileContext& context, const std::string& name, bool fallback) {
-  const auto value = context.parameter(name);
-  if (!value) return fallback;
-  if (*value != 0.0 && *value != 1.0) {
-    throw InputError(AnswerCode::kInvalidGoal, "parameter '" + name + "' is " + number(*value) + ", it must be 0 or 1");
-  }
-  return *value == 1.0;
-}
-
 ToolPathOptions optionsOf(const ProfileContext& context) {
   ToolPathOptions options;
   options.length_scale = chainOf(context).characteristicLength();
@@ -49,99 +36,6 @@ ToolPathOptions optionsOf(const ProfileContext& context) {
                      "parameter 'tool_speed' is " + number(*speed) + " m/s, it must be above 0");
   }
   return options;
-}
-
-VectorX seedOf(const ProfileContext& context) {
-  const PathPoint& first = context.waypoints().front();
-  if (first.position.size() > 0) return first.position;
-  if (context.request.present.size() > 0) return context.request.present;
-  return chainOf(context).clamped(VectorX::Zero(context.joints()));
-}
-
-VectorX goalOf(const FollowedBranch& branch) {
-  return FollowedPath(branch.curve).at(branch.curve.duration()).head(branch.start.size());
-}
-
-/// Whether the branch is one that the waypoints allow.
-bool isWanted(const ProfileContext& context, const FollowedBranch& branch, const FollowRequest& question) {
-  const auto& waypoints = context.waypoints();
-  if (question.from_seed && (branch.start - question.seed).cwiseAbs().maxCoeff() > kSameJoints) return false;
-  return matchesBranch(branch.branch, waypoints.front().branch);
-}
-
-bool arrives(const ProfileContext& context, const FollowedBranch& branch) {
-  const PathPoint& last = context.waypoints().back();
-  if (last.position.size() == 0) return matchesBranch(branch.goal_branch, last.branch);
-  return (goalOf(branch) - last.position).cwiseAbs().maxCoeff() <= kSameJoints;
-}
-
-std::string nameOf(const FollowedBranch& branch) {
-  if (!branch.branch.empty()) {
-    const bool changes = !branch.goal_branch.empty() && branch.goal_branch != branch.branch;
-    return "'" + branch.branch + "'" + (changes ? " (then '" + branch.goal_branch + "')" : "");
-  }
-  std::string values;
-  for (Eigen::Index i = 0; i < branch.start.size(); ++i) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%s%.4g", i > 0 ? " " : "", branch.start[i]);
-    values += text;
-  }
-  return "from [" + values + "]";
-}
-
-/// Which branches carry the whole path, and where and why the others end.
-std::string account(const FollowResult& result) {
-  constexpr std::size_t kMostTold = 16;
-  std::string whole;
-  std::string ends;
-  std::size_t carry = 0;
-  for (std::size_t k = 0; k < result.branches.size(); ++k) {
-    const FollowedBranch& branch = result.branches[k];
-    const bool carries = branch.end == BranchEnd::kGoal;
-    carry += carries ? 1 : 0;
-    if (k >= kMostTold) continue;
-    if (carries) {
-      whole += (whole.empty() ? ": " : ", ") + nameOf(branch);
-    } else {
-      ends += "; " + nameOf(branch) + ": " + branch.reason;
-    }
-  }
-  return std::to_string(carry) + " of " + std::to_string(result.branches.size()) + " branches carry the whole path" +
-         whole + ends + (result.complete ? "" : " (there may be more branches)");
-}
-
-/// The first branch, nearest to the start, that does what the waypoints ask for; null: none.
-const FollowedBranch* choose(const ProfileContext& context, const FollowResult& result, const FollowRequest& question) {
-  for (const FollowedBranch& branch : result.branches) {
-    if (branch.end == BranchEnd::kGoal && isWanted(context, branch, question) && arrives(context, branch))
-      return &branch;
-  }
-  return nullptr;
-}
-
-[[noreturn]] void refuse(const ProfileContext& context, const FollowResult& result, const FollowRequest& question) {
-  if (result.branches.empty()) {
-    throw InputError(AnswerCode::kNoIkSolution, "waypoints[0].pose: " + result.note);
-  }
-  std::string why = "no branch carries the whole path";
-  bool begins = false;
-  for (const FollowedBranch& branch : result.branches) {
-    if (!isWanted(context, branch, question)) continue;
-    if (!begins) why = "from the start, on branch " + nameOf(branch) + ", " + branch.reason;
-    if (branch.end == BranchEnd::kGoal) {
-      why = "the path arrives on branch '" + branch.goal_branch + "' at other joint values than waypoints[" +
-            std::to_string(context.waypoints().size() - 1) + "] asks for: give it as a pose";
-    }
-    begins = true;
-  }
-  if (!begins) {
-    const std::string& wish = context.waypoints().front().branch;
-    why = question.from_seed ? "no branch begins at the joint values of waypoints[0], which are singular: the joints "
-                               "would have to turn there before the tip can move"
-                             : "no branch begins as waypoints[0].branch '" + wish + "' asks";
-  }
-  throw InputError(AnswerCode::kPathNotContinuous,
-                   "profile '" + context.request.profile + "': " + why + "; " + account(result));
 }
 
 /// Largest errors of the motion to its path, measured by forward kinematics.
@@ -233,48 +127,66 @@ ProfileDraft hold(const ProfileContext& context, const std::vector<Pose>& poses)
 ProfileDraft follow(const ProfileContext& context, const ToolPath& path, const std::vector<Pose>& poses, bool all_met) {
   requireAskable(context, poses);
   if (path.length() == 0.0) return hold(context, poses);
-  FollowRequest question;
-  question.seed = seedOf(context);
-  question.from_seed = context.waypoints().front().position.size() > 0;
-  question.timeout = context.request.ik_timeout;
-  question.tolerance = kFine;
-  FollowResult result = followPath(*context.request.kinematics, path, question);
-  const FollowedBranch* branch = choose(context, result, question);
-  if (branch == nullptr && !result.branches.empty()) {
-    question.tolerance = kCoarse;
-    FollowResult coarse = followPath(*context.request.kinematics, path, question);
-    if (choose(context, coarse, question) != nullptr) result = std::move(coarse);
-    branch = choose(context, result, question);
-  }
-  if (branch == nullptr) refuse(context, result, question);
-
-  const FollowedPath followed(branch->curve);
-  const auto singularities = singularitiesAlong(chainOf(context), context.request.kinematics->task(), branch->curve);
+  const BranchChoice choice = chooseBranch(context, path);
+  const FollowedPath followed = withTurns(context, path, choice);
+  auto singularities = singularitiesAlong(chainOf(context), context.request.kinematics->task(), choice.branch->curve);
+  for (PassedSingularity& place : singularities) place.arc += followed.lead();
   TimedPath timed = context.request.time_law.empty() ? timeOptimally(context, path, followed, singularities)
                                                      : timeByLaw(context, path, followed);
   ProfileDraft draft{std::move(timed.trajectory), std::move(timed.waypoint_times), std::move(timed.notes), {}};
-  draft.notes.insert(draft.notes.begin(), "on branch " + nameOf(*branch) + "; " + account(result));
+  draft.notes.insert(draft.notes.begin(), describe(choice));
   draft.notes.push_back(measured(context, path, followed));
   draft.waypoints = solutionsOf(context, path, poses, followed, all_met);
+  const VectorX& goal = context.waypoints().back().position;
+  if (goal.size() > 0 && (draft.waypoints.back() - goal).cwiseAbs().maxCoeff() > kPi) {
+    draft.notes.push_back("a continuous joint arrives in another turn than the last waypoint's");
+  }
   return draft;
+}
+
+/// How corners are passed, and which of them no blend of that size fits.
+void noteBlends(const ToolPath& path, const std::vector<Pose>& poses, double radius, std::vector<std::string>& notes) {
+  double most = 0.0;
+  double shortest = 2.0 * radius;
+  std::size_t narrow = 0;
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    const double line = (poses[k].p - poses[k - 1].p).norm();
+    if (k + 1 < poses.size()) most = std::max(most, (path.pose(path.waypoints()[k]).p - poses[k].p).norm());
+    if (poses.size() < 3 || line == 0.0 || line >= shortest) continue;
+    shortest = line;
+    narrow = k;
+  }
+  std::string text = "corners are blended within blend_radius " + number(radius) + " m, the tip passes them at up to " +
+                     number(most) + " m";
+  if (path.parts() > 1) {
+    text += "; it stops at " + std::to_string(path.parts() - 1) + " where it only turns before or behind";
+  }
+  if (narrow > 0) {
+    text += "; blend_radius is more than half of the line to " + indexed("waypoints", narrow) + " and is reduced to " +
+            number(0.5 * shortest) + " m there";
+  }
+  notes.push_back(text);
 }
 
 }  // namespace
 
 ProfileDraft buildCartesianLine(const ProfileContext& context) {
   ToolPathOptions options = optionsOf(context);
-  options.screw = flag(context, "screw", false);
+  options.screw = context.flag("screw", false);
   options.blend_radius = context.parameter("blend_radius", 0.0);
   const std::vector<Pose> poses = posesOf(context);
-  return follow(context, linesThrough(poses, options), poses, options.blend_radius == 0.0);
+  const ToolPath path = linesThrough(poses, options);
+  ProfileDraft draft = follow(context, path, poses, options.blend_radius == 0.0);
+  if (options.blend_radius > 0.0 && path.length() > 0.0) noteBlends(path, poses, options.blend_radius, draft.notes);
+  return draft;
 }
 
 ProfileDraft buildCartesianArc(const ProfileContext& context) {
   const ToolPathOptions options = optionsOf(context);
   ArcOptions arc;
-  arc.centre = flag(context, "centre", false);
-  arc.long_way = flag(context, "long_way", false);
-  arc.via_orientation = flag(context, "via_orientation", true);
+  arc.centre = context.flag("centre", false);
+  arc.long_way = context.flag("long_way", false);
+  arc.via_orientation = context.flag("via_orientation", true);
   std::vector<Pose> poses = posesOf(context);
   const ToolPath path = arcThrough(poses, arc, options);
   // A centre is no pose of the path: what is met is the middle of the arc.

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "screwline/exception.h"
+#include "screwline/trajectory/blend.h"
 #include "screwline/trajectory/format.h"
 #include "screwline/trajectory/hermite.h"
 #include "screwline/trajectory/profile.h"
@@ -32,8 +34,8 @@ MatrixX c2Velocities(const std::vector<PathPoint>& waypoints, const MatrixX& pos
                           orZero(waypoints.back().velocity, joints));
 }
 
-JointTrajectory quinticMotion(const std::vector<PathPoint>& waypoints, const MatrixX& positions,
-                              const std::vector<double>& times) {
+PiecewisePolynomial quinticMotion(const std::vector<PathPoint>& waypoints, const MatrixX& positions,
+                                  const std::vector<double>& times) {
   MatrixX velocities = c2Velocities(waypoints, positions, times);
   MatrixX accelerations = splineAccelerations(times, positions, velocities);
   accelerations.col(0).setZero();
@@ -43,7 +45,7 @@ JointTrajectory quinticMotion(const std::vector<PathPoint>& waypoints, const Mat
     if (waypoints[k].velocity.size() > 0) velocities.col(column) = waypoints[k].velocity;
     if (waypoints[k].acceleration.size() > 0) accelerations.col(column) = waypoints[k].acceleration;
   }
-  return JointTrajectory::piecewise(quinticsThrough(times, positions, velocities, accelerations));
+  return quinticsThrough(times, positions, velocities, accelerations);
 }
 
 /// Adds the pieces of one trapezoid; a segment that takes no time (a repeated waypoint) adds none.
@@ -87,9 +89,96 @@ JointTrajectory trapezoidsThrough(const ProfileContext& context, const std::vect
   return JointTrajectory::piecewise(std::move(motion));
 }
 
+/// The radius asked for; 0: a stop at each waypoint.
+double blendRadius(const ProfileContext& context) {
+  const double radius = context.parameter("blend_radius", 0.0);
+  if (radius < 0.0) {
+    throw InputError(AnswerCode::kInvalidGoal,
+                     "parameter 'blend_radius' is " + number(radius) + ", it must not be negative");
+  }
+  for (std::size_t k = 1; radius > 0.0 && k + 1 < context.waypoints().size(); ++k) {
+    if (context.waypoints()[k].time == 0.0) continue;
+    throw InputError(AnswerCode::kInvalidGoal, indexed("waypoints", k) + ".time is " +
+                                                   number(context.waypoints()[k].time) +
+                                                   " s: with a blend_radius instants of intermediate waypoints are "
+                                                   "chosen, give none or a duration");
+  }
+  return radius;
+}
+
+void noteBlends(const BlendedLines& lines, double radius, std::vector<std::string>& notes) {
+  double most = 0.0;
+  std::size_t shortened = 0;
+  double least = radius;
+  std::size_t narrowest = 0;
+  for (std::size_t k = 1; k + 1 < lines.corners.size(); ++k) {
+    const BlendedCorner& corner = lines.corners[k];
+    most = std::max(most, corner.deviation);
+    if (!corner.shortened) continue;
+    ++shortened;
+    if (corner.reach >= least) continue;
+    least = corner.reach;
+    narrowest = k;
+  }
+  notes.push_back("corners are blended within blend_radius " + number(radius) +
+                  " (norm of joint differences); the way passes its waypoints at a distance of up to " + number(most));
+  if (shortened == 0) return;
+  notes.push_back("at " + std::to_string(shortened) +
+                  " waypoints half of the shorter line beside is less than blend_radius and bounds the blend: to " +
+                  number(least) + " at " + indexed("waypoints", narrowest));
+}
+
+void lengthen(BlendedLines& lines, double duration) {
+  const double factor = duration / lines.motion.duration();
+  for (double& t : lines.motion.breaks) t *= factor;
+  for (double& t : lines.times) t *= factor;
+  lines.motion.breaks.back() = lines.times.back() = duration;
+}
+
+/// Instants are rounded to the resolution of the whole duration, which a very short blend may feel: longer by some
+/// parts in 1e8 then, until the limits hold.
+void holdLimits(BlendedLines& lines, const Limits& limits) {
+  constexpr int kMostRounds = 30;
+  lengthen(lines, noLessThanShortest(lines.motion.duration()));
+  for (int round = 0; round < kMostRounds; ++round) {
+    const double excess = tightestUse(JointTrajectory::piecewise(lines.motion), limits).stretch - 1.0;
+    if (excess <= 0.1 * kLimitTolerance) return;
+    lengthen(lines, lines.motion.duration() * (1.0 + 2.0 * excess));
+  }
+}
+
+/// Whether rounding has left the blends what they are for: waypoints that all but coincide make pieces that are too
+/// short to be timed.
+bool isSound(const BlendedLines& lines, double with_stops) {
+  constexpr double kSlower = 1e-5;
+  constexpr double kStep = 1e-8;
+  for (int j = 0; j < lines.motion.joints; ++j) {
+    if (!(stepInside(lines.motion, j, 1) <= kStep)) return false;
+  }
+  return lines.motion.duration() <= with_stops * (1.0 + kSlower);
+}
+
+/// The shortest blended motion, all of it slower where a longer duration is given. Nothing where it is not sound.
+std::optional<ProfileDraft> blendedTrapezoids(const ProfileContext& context, double radius, double with_stops) {
+  BlendedLines lines = blendLines(positionsOf(context.waypoints()), context.limits, radius);
+  holdLimits(lines, context.limits);
+  if (!isSound(lines, with_stops)) return std::nullopt;
+  const double shortest = lines.motion.duration();
+  if (context.duration > 0.0 && context.duration < shortest * (1.0 - kLimitTolerance)) {
+    throw InputError(AnswerCode::kLimitsInfeasible,
+                     "profile 'multipoint_trapezoidal' in " + number(context.duration) + " s with blend_radius " +
+                         number(radius) + ": the shortest feasible duration is " + number(shortest) + " s");
+  }
+  if (context.duration > 0.0) lengthen(lines, context.duration);
+  ProfileDraft draft{JointTrajectory::piecewise(std::move(lines.motion)), std::move(lines.times), {}};
+  noteBlends(lines, radius, draft.notes);
+  return draft;
+}
+
 }  // namespace
 
 ProfileDraft buildMultipointTrapezoidal(const ProfileContext& context) {
+  const double radius = blendRadius(context);
   if (nothingMoves(context.waypoints())) return holdStill(context);
   const auto& waypoints = context.waypoints();
   std::vector<double> shortest;
@@ -98,6 +187,10 @@ ProfileDraft buildMultipointTrapezoidal(const ProfileContext& context) {
     shortest.push_back(shortestTrapezoid(waypoints[k].position - waypoints[k - 1].position, context.limits).duration);
     if (waypoints[k].time > 0.0) last_given = k;
   }
+  if (radius > 0.0) {
+    const double with_stops = std::accumulate(shortest.begin(), shortest.end(), 0.0);
+    if (auto draft = blendedTrapezoids(context, radius, with_stops)) return std::move(*draft);
+  }
   // Each segment knows its own shortest time, so a free tail takes their sum: nothing to scale or to search.
   ProfileContext timed = context;
   if (context.duration == 0.0) {
@@ -105,30 +198,29 @@ ProfileDraft buildMultipointTrapezoidal(const ProfileContext& context) {
         std::accumulate(shortest.begin() + static_cast<long>(last_given), shortest.end(), waypoints[last_given].time);
   }
   const auto build = [&](const std::vector<double>& times) { return trapezoidsThrough(context, times); };
-  return meetingVias(fitTimes(timed, build, shortest, true));
+  ProfileDraft draft = fitTimes(timed, build, shortest, true);
+  if (radius > 0.0)
+    draft.notes.push_back("waypoints all but coincide, blends would be too short to be timed: at rest in each instead");
+  return meetingVias(std::move(draft));
 }
 
 ProfileDraft buildMultipointCubic(const ProfileContext& context) {
   if (nothingMoves(context.waypoints())) return holdStill(context);
-  const MatrixX positions = positionsOf(context.waypoints());
-  const auto build = [&](const std::vector<double>& times) {
+  const auto build = [&](const MatrixX& positions, const std::vector<double>& times) {
     PiecewisePolynomial motion = cubicsThrough(times, positions, c2Velocities(context.waypoints(), positions, times));
     motion.continuity = 2;
     motion.rest_continuity = 1;
-    return JointTrajectory::piecewise(std::move(motion));
+    return motion;
   };
-  return meetingVias(
-      fitTimes(context, build, segmentWeights(context.waypoints(), context.limits), !movesAtEnds(context.waypoints())));
+  return meetingVias(fitShape(context, build, !movesAtEnds(context.waypoints())));
 }
 
 ProfileDraft buildMultipointQuintic(const ProfileContext& context) {
   if (nothingMoves(context.waypoints())) return holdStill(context);
-  const MatrixX positions = positionsOf(context.waypoints());
-  const auto build = [&](const std::vector<double>& times) {
+  const auto build = [&](const MatrixX& positions, const std::vector<double>& times) {
     return quinticMotion(context.waypoints(), positions, times);
   };
-  return meetingVias(fitTimes(context, build, segmentWeights(context.waypoints(), context.limits),
-                              positionsDecide(context.waypoints())));
+  return meetingVias(fitShape(context, build, positionsDecide(context.waypoints())));
 }
 
 }  // namespace screwline

@@ -175,21 +175,29 @@ PlanResult planStretched(const PlanRequest& request, const Profile& profile, con
   return std::move(*result);
 }
 
+PlanResult planOrStretch(const PlanRequest& request, const Profile& profile, bool stretch) {
+  try {
+    return planAsGiven(request, profile);
+  } catch (const InputError& error) {
+    if (!stretch || error.code() != AnswerCode::kLimitsInfeasible) throw;
+    return planStretched(request, profile, error);
+  }
+}
+
 }  // namespace
 
 PlanResult plan(const PlanRequest& request) {
   const Profile& profile = findProfile(request.profile);
-  const double stretch = validateRequest(request, profile).parameter(kStretchParameter, 0.0);
-  if (stretch != 0.0 && stretch != 1.0) {
-    throw InputError(AnswerCode::kInvalidGoal, "parameter 'stretch' is " + number(stretch) + ", it must be 0 or 1");
+  const ProfileContext context = validateRequest(request, profile);
+  const bool stretch = context.flag(kStretchParameter, false);
+  if (profile.cartesian || request.continuous.empty() || context.flag(kKeepTurnsParameter, false)) {
+    return planOrStretch(request, profile, stretch);
   }
-  if (stretch == 0.0) return planAsGiven(request, profile);
-  try {
-    return planAsGiven(request, profile);
-  } catch (const InputError& error) {
-    if (error.code() != AnswerCode::kLimitsInfeasible) throw;
-    return planStretched(request, profile, error);
-  }
+  std::vector<std::string> notes;
+  const PlanRequest short_ways = onShortWays(request, notes);
+  PlanResult result = planOrStretch(short_ways, profile, stretch);
+  result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
+  return result;
 }
 
 }  // namespace screwline

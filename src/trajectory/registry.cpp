@@ -129,7 +129,12 @@ std::vector<Profile> multipointMoves() {
       "alone are the control points, the motion starts and ends with velocity",
       false};
   return {
-      {{"multipoint_trapezoidal", "trapezoidal velocity from waypoint to waypoint, at rest in each", {}},
+      {{"multipoint_trapezoidal",
+        "trapezoidal velocity along the lines from waypoint to waypoint, at rest in each, or with corners blended",
+        {{"blend_radius",
+          "[rad or m, norm of joint differences] within which a corner is left and met again on a parabola, without a "
+          "stop; at most half of a line; 0 (default): a stop at each waypoint",
+          false}}},
        2,
        kAny,
        true,
@@ -154,20 +159,21 @@ std::vector<Profile> multipointMoves() {
        WaypointDerivatives::kAll,
        buildMultipointQuintic},
       {{"bspline",
-        "clamped uniform B-spline with the waypoints as control points: it meets the ends and stays in their hull",
+        "clamped uniform B-spline with the waypoints as control points: it meets the ends and stays in their hull; "
+        "velocities and accelerations at the ends from the waypoints, else zero",
         {degree, rest_ends}},
        2,
        kAny,
        false,
-       WaypointDerivatives::kNone,
+       WaypointDerivatives::kEnds,
        buildBspline},
       {{"bspline_interpolating",
-        "B-spline through the waypoints, from rest to rest with zero acceleration at the ends",
+        "B-spline through the waypoints; velocities and accelerations at the ends from the waypoints, else zero",
         {degree}},
        2,
        kAny,
        true,
-       WaypointDerivatives::kNone,
+       WaypointDerivatives::kEnds,
        buildBsplineInterpolating},
   };
 }
@@ -235,8 +241,15 @@ const std::vector<Profile>& registry() {
         "1: given times that are too short for the limits are lengthened, all by one factor, to "
         "the shortest feasible; 0 (default): they are refused",
         false};
+    const ParameterInfo keep_turns{kKeepTurnsParameter,
+                                   "1: values of continuous joints are taken in the turns that they are given in; 0 "
+                                   "(default): each takes the turn "
+                                   "that is nearest to the waypoint before, the short way",
+                                   false};
     for (Profile& profile : all) {
-      if (profile.info.name != "sinusoidal") profile.info.parameters.push_back(stretch);
+      if (profile.info.name == "sinusoidal") continue;
+      profile.info.parameters.push_back(stretch);
+      profile.info.parameters.push_back(keep_turns);
     }
     return all;
   }();

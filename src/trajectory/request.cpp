@@ -69,14 +69,15 @@ void validateDerivatives(const ProfileContext& context, const Profile& profile, 
   if (waypoint.velocity.size() > 0) {
     requireVector(waypoint.velocity, context.joints(), field + ".velocity");
     requireWithinLimit(waypoint.velocity, context.limits.velocity, field + ".velocity");
-    const bool accepted = all || (end && profile.derivatives == WaypointDerivatives::kEndVelocity);
+    const bool accepted = all || (end && profile.derivatives != WaypointDerivatives::kNone);
     requireMeetable(waypoint.velocity, field + ".velocity", accepted, profile.info.name);
     if (!end && !all) refuse(field + ".velocity is given, profile '" + profile.info.name + "' chooses it itself");
   }
   if (waypoint.acceleration.size() > 0) {
     requireVector(waypoint.acceleration, context.joints(), field + ".acceleration");
     requireWithinLimit(waypoint.acceleration, context.limits.acceleration, field + ".acceleration");
-    requireMeetable(waypoint.acceleration, field + ".acceleration", all, profile.info.name);
+    const bool accepted = all || (end && profile.derivatives == WaypointDerivatives::kEnds);
+    requireMeetable(waypoint.acceleration, field + ".acceleration", accepted, profile.info.name);
     if (!end && !all) refuse(field + ".acceleration is given, profile '" + profile.info.name + "' chooses it itself");
   }
 }
@@ -174,6 +175,14 @@ void validateKinematics(const PlanRequest& request, const Profile& profile) {
   if (request.present.size() > 0) requireVector(request.present, request.limits.joints(), "present");
 }
 
+void validateContinuous(const PlanRequest& request) {
+  for (const int joint : request.continuous) {
+    if (joint >= 0 && joint < request.limits.joints()) continue;
+    refuse("continuous names joint " + std::to_string(joint) + ", the robot has " +
+           std::to_string(request.limits.joints()));
+  }
+}
+
 }  // namespace
 
 std::optional<double> ProfileContext::parameter(const std::string& name) const {
@@ -181,6 +190,33 @@ std::optional<double> ProfileContext::parameter(const std::string& name) const {
     if (given == name) return value;
   }
   return std::nullopt;
+}
+
+bool ProfileContext::flag(const std::string& name, bool fallback) const {
+  const auto value = parameter(name);
+  if (!value) return fallback;
+  if (*value != 0.0 && *value != 1.0) refuse("parameter '" + name + "' is " + number(*value) + ", it must be 0 or 1");
+  return *value == 1.0;
+}
+
+PlanRequest onShortWays(PlanRequest request, std::vector<std::string>& notes) {
+  constexpr double kHalfTurn = kPi * (1.0 + 1e-9);  // Of two ways that are equally long the given one.
+  std::size_t turned = 0;
+  for (std::size_t k = 1; k < request.waypoints.size(); ++k) {
+    const VectorX& before = request.waypoints[k - 1].position;
+    VectorX& position = request.waypoints[k].position;
+    for (const int joint : request.continuous) {
+      const double given = position[joint];
+      if (std::abs(given - before[joint]) <= kHalfTurn) continue;
+      position[joint] = given + kTwoPi * std::round((before[joint] - given) / kTwoPi);
+      if (++turned > 1) continue;
+      notes.push_back(indexed("waypoints", k) + ".position: joint " + std::to_string(joint) +
+                      " is continuous and takes the short way, to " + number(position[joint]) + " instead of " +
+                      number(given) + " (parameter 'keep_turns' 1: as given)");
+    }
+  }
+  if (turned > 1) notes.push_back("so do " + std::to_string(turned - 1) + " more values");
+  return request;
 }
 
 ProfileContext validateRequest(const PlanRequest& request, const Profile& profile) {
@@ -193,6 +229,7 @@ ProfileContext validateRequest(const PlanRequest& request, const Profile& profil
   validateTimes(request, profile);
   validateParameters(request, profile);
   validateKinematics(request, profile);
+  validateContinuous(request);
 
   const auto factor = [](double given) { return given == 0.0 ? 1.0 : given; };
   ProfileContext context{request,

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 
 #include "screwline/exception.h"
 #include "screwline/trajectory/format.h"
+#include "segment_search.h"
 
 namespace screwline {
 namespace {
@@ -81,6 +83,52 @@ void requireFeasible(const ProfileContext& context, const TimedBuilder& build, c
   refuseDuration(context, use, duration * factor);
 }
 
+/// In units of the shortest durations.
+struct Ratios {
+  std::vector<double> weights;
+  double duration = 0.0;
+};
+
+std::vector<double> scaledTo(std::vector<double> lengths, double duration) {
+  const double total = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  for (double& length : lengths) length *= duration / total;
+  return lengths;
+}
+
+std::vector<double> instantsOf(const std::vector<double>& lengths) {
+  std::vector<double> times{0.0};
+  for (const double length : lengths) times.push_back(times.back() + length);
+  return times;
+}
+
+/// Where velocities are fixed each duration has its own shape: the shortest of a few balanced ones.
+Ratios searchedRatios(const ProfileContext& context, const ShapeBuilder& build, const TimedBuilder& timed,
+                      const MatrixX& positions, std::vector<double> weights, double shortest) {
+  constexpr int kRounds = 8;
+  constexpr Eigen::Index kMostEntries = 400;
+  Ratios best{weights, shortest};
+  if (positions.size() > kMostEntries || shortest == 0.0) return best;
+  double duration = shortest;
+  for (int round = 0; round < kRounds && duration > 0.0; ++round) {
+    weights = balancedOnce(build, positions, context.limits, scaledTo(weights, duration));
+    const auto stretch = [&](double whole) {
+      return tightestUse(timed(instantsOf(scaledTo(weights, whole))), context.limits).stretch;
+    };
+    duration = searchShortest(stretch, best.duration);
+    if (duration > 0.0 && duration < best.duration) best = {weights, duration};
+  }
+  return best;
+}
+
+void noteRatios(double before, double after, std::vector<std::string>& notes) {
+  if (!(after < before)) return;
+  char text[128];
+  std::snprintf(text, sizeof text,
+                "times of the segments are searched: %.3g %% shorter than in proportion to each one's own shortest",
+                100.0 * (1.0 - after / before));
+  notes.push_back(text);
+}
+
 }  // namespace
 
 MatrixX positionsOf(const std::vector<PathPoint>& waypoints) {
@@ -153,6 +201,39 @@ ProfileDraft fitTimes(const ProfileContext& context, const TimedBuilder& build, 
   if (tail == 0.0) refuseAlways(context, tightestUse(build(withTail(times, known, weights, 1.0)), context.limits));
   times = withTail(times, known, weights, tail / total);
   return {build(times), times, {}};
+}
+
+ProfileDraft fitShape(const ProfileContext& context, const ShapeBuilder& build, bool homogeneous) {
+  const auto& waypoints = context.waypoints();
+  const MatrixX positions = positionsOf(waypoints);
+  const TimedBuilder timed = [&](const std::vector<double>& times) {
+    return JointTrajectory::piecewise(build(positions, times));
+  };
+  const std::vector<double> weights = segmentWeights(waypoints, context.limits);
+  const bool free = std::all_of(waypoints.begin(), waypoints.end() - 1, [](const auto& w) { return w.time == 0.0; });
+  if (!free || waypoints.size() < 3) return fitTimes(context, timed, weights, homogeneous);
+  const auto stretch = [&](const std::vector<double>& lengths) {
+    return tightestUse(timed(instantsOf(lengths)), context.limits).stretch;
+  };
+  Ratios before{weights, 0.0};
+  Ratios after;
+  if (homogeneous) {
+    const auto shortest = [&](const std::vector<double>& w) {
+      return stretch(w) * std::accumulate(w.begin(), w.end(), 0.0);
+    };
+    before.duration = shortest(weights);
+    after.weights = shortestRatios(build, positions, context.limits, weights);
+    after.duration = shortest(after.weights);
+  } else {
+    requireSearchable(context);
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    before.duration = searchShortest([&](double whole) { return stretch(scaledTo(weights, whole)); }, total);
+    after = searchedRatios(context, build, timed, positions, weights, before.duration);
+  }
+  const bool shorter = after.duration < before.duration;
+  ProfileDraft draft = fitTimes(context, timed, shorter ? after.weights : weights, homogeneous);
+  noteRatios(before.duration, after.duration, draft.notes);
+  return draft;
 }
 
 ProfileDraft holdStill(const ProfileContext& context) {

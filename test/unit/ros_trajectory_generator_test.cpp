@@ -266,6 +266,26 @@ TEST(TrajectoryGenerator, PointsWithALeadFollowIt) {
   EXPECT_EQ(all.points.front().positions, std::vector<double>(3, 0.0));
 }
 
+TEST(TrajectoryPlanner, ContinuousJointsTakeTheShortWayAndSaySo) {
+  const auto chain =
+      std::make_shared<const SerialChain>(readUrdfFile(std::string(SCREWLINE_SOURCE_DIR) + "/urdf/rrr_planar.urdf"));
+  ASSERT_EQ(chain->joint(2).type, JointType::kContinuous);
+  const TrajectoryPlanner planner({chain, Task::parse({"x", "y", "rz"}), {}}, 0.1,
+                                  [](const std::string&) { return std::optional<Pose>(); });
+  PlanTrajectory::Request request = question("polynomial_345");
+  request.waypoints = {at({0.0, 0.0, 0.0}), at({0.5, 0.5, 5.0})};
+  PlanTrajectory::Response response;
+  PlannedMotion planned;
+  const Outcome outcome = planner.plan(request, VectorX::Zero(3), response, planned);
+  EXPECT_NEAR(response.trajectory.points.back().positions[2], 5.0 - kTwoPi, 1e-12);
+  EXPECT_EQ(response.metrics.goal_error, 0.0);
+  EXPECT_NE(outcome.message.find("takes the short way"), std::string::npos) << outcome.message;
+  request.parameter_names = {"keep_turns"};
+  request.parameter_values = {1.0};
+  planner.plan(request, VectorX::Zero(3), response, planned);
+  EXPECT_NEAR(response.trajectory.points.back().positions[2], 5.0, 1e-12);
+}
+
 TEST(TrajectoryParams, EveryKeyAndItsBounds) {
   EXPECT_EQ(readTrajectoryParams(XmlRpcValue()).rate, 100.0);
   XmlRpcValue values;

@@ -22,11 +22,28 @@ std::vector<double> clampedKnots(int degree, const std::vector<double>& interior
 /// is degree - 1 (at most 3), for simple interior knots. Source: Biagiotti & Melchiorri, appendix B.
 PiecewisePolynomial piecesOf(const Bspline& spline);
 
-/// The B-spline through the columns of positions (n x N, N >= 2) at the instants, starting and ending with zero
-/// velocity and acceleration (and, from degree 6, zero jerk). Knots: the instants for odd degrees (3: and one inside
-/// the first and the last segment), the middles of the segments for even ones, so the banded system is square and never
-/// singular (Schoenberg-Whitney). Linear in N. @pre degree 3 .. 7, instants strictly increasing from 0.
-Bspline interpolatingBspline(int degree, const std::vector<double>& times, const MatrixX& positions);
+/// Velocities and accelerations of all joints where a spline begins and ends, n values each; empty: zero.
+struct SplineEnds {
+  VectorX first_velocity;
+  VectorX first_acceleration;
+  VectorX last_velocity;
+  VectorX last_acceleration;
+
+  bool firstRests() const { return first_velocity.isZero(0.0) && first_acceleration.isZero(0.0); }
+  bool lastRests() const { return last_velocity.isZero(0.0) && last_acceleration.isZero(0.0); }
+};
+
+/// Replaces the `count` - 1 control points next to either end so that the spline has the derivatives of `ends` there
+/// (and zero jerk where count is 4): the recursion of the control points of derivatives, read backwards.
+/// @pre simple interior knots, at least 2 count control points. Source: Biagiotti & Melchiorri, appendix B.
+void meetEnds(const SplineEnds& ends, int count, Bspline& spline);
+
+/// The B-spline through the columns of positions (n x N, N >= 2) at the instants, with the velocities and accelerations
+/// of `ends` (and, from degree 6, zero jerk). Knots: the instants for odd degrees (3: and one inside the first and the
+/// last segment), the middles of the segments for even ones, so the banded system is square and never singular
+/// (Schoenberg-Whitney). Linear in N. @pre degree 3 .. 7, instants strictly increasing from 0.
+Bspline interpolatingBspline(int degree, const std::vector<double>& times, const MatrixX& positions,
+                             const SplineEnds& ends = {});
 
 }  // namespace screwline
 

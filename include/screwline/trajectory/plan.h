@@ -31,6 +31,7 @@ struct PlanRequest {
   double acceleration_scaling = 0.0;                       ///< The same.
   double jerk_scaling = 0.0;                               ///< The same.
   std::vector<std::pair<std::string, double>> parameters;  ///< As listProfiles() names them.
+  std::vector<int> continuous;  ///< Joints that turn without end: see plan(). In joint space, and at a path's goal.
 
   // Of Cartesian profiles only.
   const InverseKinematics* kinematics = nullptr;  ///< The chain and its task. Has to outlive plan().
@@ -65,6 +66,9 @@ std::vector<ProfileSummary> listProfiles();
 
 /// A motion through the waypoints that keeps the limits, proved by exact extrema (verify.h) before it is returned.
 /// Orders that a profile makes infinite (acceleration of rectangular, jerk of cubic) are not held; notes say so.
+/// A continuous joint takes the short way: of the values that differ by turns of 2 pi from a waypoint's, the one
+/// nearest to the waypoint before (half a turn: as given). Notes say which; the parameter `keep_turns` 1 leaves them as
+/// given.
 /// @throws InputError kUnknownProfile (lists the known ones), kLimitsInfeasible (names joint, order, value, bound and
 /// the shortest feasible duration; given times are lengthened only with the parameter `stretch`), kTooLarge,
 /// kInvalidGoal (names the field, its value and the bound), and for Cartesian profiles kNoIkSolution (the first pose is

@@ -15,11 +15,14 @@ namespace screwline {
 enum class WaypointDerivatives {
   kNone,         ///< Starts and ends at rest: only zeros may be given, at the ends.
   kEndVelocity,  ///< Velocities of the first and the last waypoint.
+  kEnds,         ///< Velocities and accelerations of these two.
   kAll,          ///< Velocities and accelerations of any waypoint.
 };
 
 /// Parameter of every profile that a duration is given to: 1 lengthens one that is too short.
 constexpr char kStretchParameter[] = "stretch";
+/// Parameter of every profile with two waypoints or more: 1 takes the values of continuous joints as they are given.
+constexpr char kKeepTurnsParameter[] = "keep_turns";
 
 /// A validated request as a builder sees it.
 struct ProfileContext {
@@ -31,6 +34,8 @@ struct ProfileContext {
   const std::vector<PathPoint>& waypoints() const { return request.waypoints; }
   std::optional<double> parameter(const std::string& name) const;
   double parameter(const std::string& name, double fallback) const { return parameter(name).value_or(fallback); }
+  /// A parameter that is 0 or 1. @throws InputError(kInvalidGoal) for another value.
+  bool flag(const std::string& name, bool fallback) const;
 };
 
 /// What a builder returns: a motion within the limits, and the instant of every waypoint.
@@ -66,6 +71,10 @@ const Profile& findProfile(const std::string& name);
 
 /// Checks everything in the request that needs no planning. @throws InputError (see plan()).
 ProfileContext validateRequest(const PlanRequest& request, const Profile& profile);
+
+/// The request with its continuous joints on their short ways; a note for each waypoint that is changed (many: the
+/// first). @pre a valid request in joint space.
+PlanRequest onShortWays(PlanRequest request, std::vector<std::string>& notes);
 
 /// Throws InputError(kLimitsInfeasible): what breaks which limit in the given duration, and the shortest feasible one.
 [[noreturn]] void refuseDuration(const ProfileContext& context, const LimitUse& use, double shortest);

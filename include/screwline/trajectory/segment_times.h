@@ -11,6 +11,9 @@ namespace screwline {
 /// A motion for given instants of the waypoints.
 using TimedBuilder = std::function<JointTrajectory(const std::vector<double>& times)>;
 
+/// The same as pieces, through the columns of positions.
+using ShapeBuilder = std::function<PiecewisePolynomial(const MatrixX& positions, const std::vector<double>& times)>;
+
 /// The waypoints' positions as columns, n x N.
 MatrixX positionsOf(const std::vector<PathPoint>& waypoints);
 
@@ -33,6 +36,10 @@ double searchShortest(const std::function<double(double)>& stretch, double guess
 /// @throws InputError(kLimitsInfeasible) naming the shortest feasible duration.
 ProfileDraft fitTimes(const ProfileContext& context, const TimedBuilder& build, const std::vector<double>& weights,
                       bool homogeneous);
+
+/// The same, with the ratios of free times searched for the shortest motion: where all times are free, or the duration
+/// alone is given. Never longer than with the weights of segmentWeights(), and a note says by how much it is shorter.
+ProfileDraft fitShape(const ProfileContext& context, const ShapeBuilder& build, bool homogeneous);
 
 /// Rest at the first waypoint for the given duration or none: what a request without any displacement gets.
 ProfileDraft holdStill(const ProfileContext& context);
