@@ -24,9 +24,11 @@ inline bool isTrueSolution(const InverseKinematics& ik, const Pose& target, Vect
   const double rounding = 1e-14 * (1.0 + ik.chain().characteristicLength());
   Matrix6X J;
   for (int k = 0; k < 60; ++k) {
-    const TaskError error = taskError(ik.task(), target, geometricJacobian(ik.chain(), q, J));
+    const Pose tip = geometricJacobian(ik.chain(), q, J);
+    const TaskError error = taskError(ik.task(), target, tip);
     if (error.norm() <= rounding) return true;
-    const VectorX step = ik.task().select(J).completeOrthogonalDecomposition().solve(ik.task().select(error.twist));
+    const VectorX step =
+        ik.task().select(J, tip.R).completeOrthogonalDecomposition().solve(ik.task().select(error.twist, tip.R));
     q += std::min(1.0, kLongestStep / step.norm()) * step;
   }
   return false;

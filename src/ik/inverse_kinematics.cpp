@@ -39,22 +39,6 @@ Candidate searched(const VectorX& q) {
   return candidate;
 }
 
-/// A redundant chain's solution lies on its self-motion; told here to first order, its range is not traced.
-void describeRedundancy(const SerialChain& chain, const Task& task, IkAnswer& solution) {
-  solution.self_motion = taskRank(taskJacobian(chain, solution.position, task)).self_motions;
-  for (int i = 0; i < chain.size(); ++i) {
-    if (solution.self_motion.rows() > 0 && solution.self_motion.col(i).cwiseAbs().maxCoeff() > 1e-9)
-      solution.free_joints.push_back(i);
-  }
-  const auto count = static_cast<Eigen::Index>(solution.free_joints.size());
-  solution.self_motion_lower.resize(count);
-  solution.self_motion_upper.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    solution.self_motion_lower[i] = solution.self_motion_upper[i] =
-        solution.position[solution.free_joints[static_cast<std::size_t>(i)]];
-  }
-}
-
 }  // namespace
 
 struct InverseKinematics::Implementation {

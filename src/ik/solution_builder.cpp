@@ -97,6 +97,21 @@ void SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
   if (solution.self_motion.rows() == 0) solution.self_motion.resize(0, chain_.size());
 }
 
+void describeRedundancy(const SerialChain& chain, const Task& task, IkAnswer& solution) {
+  solution.self_motion = taskRank(taskJacobian(chain, solution.position, task)).self_motions;
+  for (int i = 0; i < chain.size(); ++i) {
+    if (solution.self_motion.rows() > 0 && solution.self_motion.col(i).cwiseAbs().maxCoeff() > 1e-9)
+      solution.free_joints.push_back(i);
+  }
+  const auto count = static_cast<Eigen::Index>(solution.free_joints.size());
+  solution.self_motion_lower.resize(count);
+  solution.self_motion_upper.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    solution.self_motion_lower[i] = solution.self_motion_upper[i] =
+        solution.position[solution.free_joints[static_cast<std::size_t>(i)]];
+  }
+}
+
 std::vector<Candidate> joinEqual(const SerialChain& chain, std::vector<Candidate> candidates) {
   std::vector<Candidate> distinct;
   for (Candidate& candidate : candidates) {

@@ -39,6 +39,9 @@ class SolutionBuilder {
   mutable Matrix3 orientation_;  ///< Its tip's.
 };
 
+/// A redundant chain's solution lies on its self-motion; told here to first order, its range is not traced.
+void describeRedundancy(const SerialChain& chain, const Task& task, IkAnswer& solution);
+
 /// Candidates with those that are the same within kSameSolution joined into one, marked merged.
 std::vector<Candidate> joinEqual(const SerialChain& chain, std::vector<Candidate> candidates);
 

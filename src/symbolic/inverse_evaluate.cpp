@@ -117,9 +117,9 @@ double taskDeviation(const SerialChain& chain, const Task& task, const Pose& tar
 
 bool isClear(const SerialChain& chain, const Task& task, const VectorX& q) {
   Matrix6X J(6, chain.size());
-  geometricJacobian(chain, q, J);
+  const Matrix3 R = geometricJacobian(chain, q, J).R;
   J.topRows<3>() /= chain.characteristicLength();
-  const VectorX values = Eigen::JacobiSVD<MatrixX>(task.select(J)).singularValues();
+  const VectorX values = Eigen::JacobiSVD<MatrixX>(task.select(J, R)).singularValues();
   return values.minCoeff() > kClear * values.maxCoeff();
 }
 
