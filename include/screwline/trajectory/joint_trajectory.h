@@ -130,7 +130,7 @@ class JointTrajectory {
   ScalingTable scale_;  ///< s by time, of the scaled form; empty where s is no polynomial or nothing takes time.
   DeltaKernel scale_kernel_ = nullptr;  ///< For its rows; null where it is empty.
   std::vector<double> line_;            ///< start_, then delta_.
-  ScalingTable along_;  ///< u by time, along a path.
+  ScalingTable along_;                  ///< u by time, along a path.
   JointPath path_;
   std::vector<JointExtrema> extrema_;  ///< Along a path: of each joint.
   PiecewisePolynomial pieces_;
