@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "screwline/ros/checks.h"
@@ -47,6 +48,17 @@ double factor(double value, const std::string& field) {
   requireFinite(value, field);
   if (value < 0.0 || value > 1.0) refuse(field + " is " + numberText(value) + ", it must be in (0, 1], or 0 for 1");
   return value;
+}
+
+/// Profiles along a path keep jerk limits where the request gives some, unless its parameter says otherwise.
+void holdGivenJerk(const PlanTrajectory::Request& request, PlanRequest& question) {
+  constexpr char kHoldJerk[] = "hold_jerk";
+  const auto& known = findProfile(request.profile).info.parameters;
+  const auto named = [&](const auto& parameter) { return parameter.name == kHoldJerk; };
+  const auto given = [&](const auto& parameter) { return parameter.first == kHoldJerk; };
+  if (request.jerk_limits.empty() || std::none_of(known.begin(), known.end(), named)) return;
+  const auto& parameters = question.parameters;
+  if (std::none_of(parameters.begin(), parameters.end(), given)) question.parameters.emplace_back(kHoldJerk, 1.0);
 }
 
 }  // namespace
@@ -150,9 +162,10 @@ PlanRequest TrajectoryPlanner::toPlanRequest(const PlanTrajectory::Request& requ
     values(request, std::vector<double>(request.joint_names.size(), 0.0), "joint_names");
   }
   const bool cartesian = findProfile(request.profile).cartesian;
+  holdGivenJerk(request, result);
   result.time_law = request.time_law;
+  result.kinematics = &solver_;
   if (cartesian) {
-    result.kinematics = &solver_;
     result.present = present;
     result.ik_timeout = ik_timeout_;
   }

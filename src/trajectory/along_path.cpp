@@ -9,6 +9,7 @@
 namespace screwline {
 namespace {
 
+constexpr double kFar = 0.1;     // Of a segment of the path: shorter ways do not make coefficients cancel.
 constexpr double kSame = 1e-12;  // Of the whole: closer breaks are one.
 
 /// Degree 7 between two ends that are given with three derivatives. Source: Biagiotti & Melchiorri, section 2.1.
@@ -61,8 +62,8 @@ Polynomial partOf(const Polynomial& p, double from, double to) {
   return part;
 }
 
-/// Where to cut one piece of the scaling, in its own [0, 1]. Pieces of high degree are cut up even where the path has
-/// no break: the coefficients of a composition of high degree cancel over a long way.
+/// Where to cut one piece of the scaling, in its own [0, 1]. Pieces of high degree that go far are cut up even where
+/// the path has no break: the coefficients of a composition of high degree cancel over a long way.
 std::vector<double> cutsOf(const JointPath& path, const Polynomial& s, int degree) {
   std::vector<double> cuts{0.0};
   const auto& breaks = path.breaks();
@@ -70,7 +71,9 @@ std::vector<double> cutsOf(const JointPath& path, const Polynomial& s, int degre
   for (; next < breaks.end() - 1 && *next < (s(1.0) - kSame) * path.length(); ++next) {
     cuts.push_back(placeOf(s, *next / path.length()));
   }
-  const int parts = degree * path.curve().degree > 12 ? 16 : 1;
+  const double inverse = path.inverseLength(path.segmentAt(path.length() * s(0.5)));
+  const bool far = (s(1.0) - s(0.0)) * path.length() * inverse > kFar;
+  const int parts = far && degree * path.curve().degree > 12 ? 16 : 1;
   for (int k = 1; k < parts; ++k) cuts.push_back(static_cast<double>(k) / parts);
   cuts.push_back(1.0);
   std::sort(cuts.begin(), cuts.end());

@@ -1,4 +1,5 @@
 #include "cartesian_motion.h"
+#include "hold_jerk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "screwline/trajectory/format.h"
 #include "screwline/trajectory/hermite.h"
 #include "screwline/trajectory/retime.h"
+#include "screwline/trajectory/tool_speed.h"
 
 namespace screwline {
 namespace {
@@ -20,29 +22,6 @@ std::string percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
   return text;
-}
-
-double toolRate(const ToolPath& path, double u) {
-  std::size_t part = 0;
-  while (part + 1 < path.parts() && u >= path.partEnd(part)) ++part;
-  ToolPathPoint point;
-  path.at(part, u, point);
-  return point.rate.head<3>().norm();
-}
-
-/// Greatest du/dt of the arc over an interval at which the tip keeps the speed.
-RateBound boundOf(const ToolPath& path, const FollowedPath& followed, double speed) {
-  constexpr int kPlaces = 4;
-  constexpr double kBetween = 1.001;  // What may be missed between the places.
-  return [&path, &followed, speed](double from, double to) {
-    double most = 0.0;
-    for (int i = 0; i <= kPlaces; ++i) {
-      const double arc = from + (to - from) * i / kPlaces;
-      const double u = followed.at(arc).tail<1>()[0];
-      most = std::max(most, toolRate(path, u) * std::abs(followed.rateAt(arc).tail<1>()[0]));
-    }
-    return most > 0.0 ? speed / (kBetween * most) : std::numeric_limits<double>::infinity();
-  };
 }
 
 /// What each singularity costs: the rate of u there beside the greatest of the motion.
@@ -184,10 +163,12 @@ double tauAt(const TimeLaw& law, double s) {
 TimedPath timeOptimally(const ProfileContext& context, const ToolPath& path, const FollowedPath& followed,
                         const std::vector<PassedSingularity>& singularities) {
   Limits limits = context.limits;
-  limits.jerk.setConstant(std::numeric_limits<double>::infinity());
   RetimeOptions options;
-  if (const auto speed = context.parameter("tool_speed")) options.rate_bound = boundOf(path, followed, *speed);
+  options.hold_jerk = holdsJerk(context);
+  if (!options.hold_jerk) limits.jerk.setConstant(std::numeric_limits<double>::infinity());
   const JointPath joints = followed.byArc();
+  const SerialChain& chain = context.request.kinematics->chain();
+  if (const auto speed = context.parameter("tool_speed")) options.rate_bound = toolSpeedBound(chain, joints, *speed);
   const RetimeResult timed = retime(joints, limits, options);
   double shortest = timed.duration;
   TimedPath result;

@@ -39,7 +39,12 @@ JointTrajectory JointTrajectory::scaled(VectorX start, VectorX delta, TimeLaw sc
   trajectory.delta_ = std::move(delta);
   trajectory.scaling_ = std::move(scaling);
   if (duration > kNoTime && !trajectory.scaling_.isCycloidal()) {
-    trajectory.table_ = ScalingTable(trajectory.scaling_.pieces(), duration);
+    trajectory.scale_ = ScalingTable(trajectory.scaling_.pieces(), duration);
+    const SampleKernels& kernels = trajectory.kernels_;
+    trajectory.scale_kernel_ = trajectory.scale_.hasLongRows() ? kernels.long_delta : kernels.short_delta;
+    for (const VectorX* values : {&trajectory.start_, &trajectory.delta_}) {
+      trajectory.line_.insert(trajectory.line_.end(), values->data(), values->data() + values->size());
+    }
   }
   return trajectory;
 }
@@ -55,7 +60,7 @@ JointTrajectory JointTrajectory::alongPath(JointPath path, const TimeLaw& scalin
     trajectory.extrema_ = extremaAlongPath(path, trajectory.scaling_.pieces(), duration);
     PiecewisePolynomial u = trajectory.scaling_.pieces();
     for (double& c : u.coefficients) c *= path.length();
-    trajectory.table_ = ScalingTable(u, duration);
+    trajectory.along_ = ScalingTable(u, duration);
   }
   trajectory.path_ = std::move(path);
   return trajectory;
@@ -115,13 +120,7 @@ std::vector<double> JointTrajectory::corners() const {
   return corners;
 }
 
-void JointTrajectory::sample(double t, TrajectoryPoint& point) const {
-  if (point.position.size() != joints_) point = TrajectoryPoint(joints_);
-  sample(t, point.position.data(), point.velocity.data(), point.acceleration.data(), point.jerk.data());
-}
-
-void JointTrajectory::sample(double t, double* position, double* velocity, double* acceleration, double* jerk) const {
-  const SampleOutput output{position, velocity, acceleration, jerk};
+void JointTrajectory::sampleOther(double t, const SampleOutput& output) const {
   const double inside = std::min(std::max(t, 0.0), duration_);
   switch (form_) {
     case Form::kScaled:
@@ -131,22 +130,24 @@ void JointTrajectory::sample(double t, double* position, double* velocity, doubl
       samplePath(inside, output);
       break;
     case Form::kPiecewise:
-      samplePieces(inside, output);
+      if (!spans_.empty()) samplePieces(inside, output);
       break;
     case Form::kSinusoidal:
       sampleSinusoid(inside, output);
       break;
   }
   if (t < 0.0 || t > duration_) {
-    std::fill_n(velocity, joints_, 0.0);
-    std::fill_n(acceleration, joints_, 0.0);
-    std::fill_n(jerk, joints_, 0.0);
+    std::fill_n(output.velocity, joints_, 0.0);
+    std::fill_n(output.acceleration, joints_, 0.0);
+    std::fill_n(output.jerk, joints_, 0.0);
   }
 }
 
 void JointTrajectory::sampleScaled(double t, const SampleOutput& output) const {
-  if (!table_.empty()) {
-    kernels_->delta(table_.at(t), start_.data(), delta_.data(), joints_, output);
+  if (scale_kernel_ != nullptr) {
+    const ScalingRows at = scale_.at(t);
+    scale_kernel_(at.rows, at.x, line_.data(), joints_, output.position, output.velocity, output.acceleration,
+                  output.jerk);
     return;
   }
   const double r = inverse_duration_;
@@ -158,22 +159,12 @@ void JointTrajectory::sampleScaled(double t, const SampleOutput& output) const {
 
 void JointTrajectory::samplePath(double t, const SampleOutput& output) const {
   double u[4] = {0.0, 0.0, 0.0, 0.0};  // And its derivatives by time.
-  if (!table_.empty()) kernels_->scaling(table_.at(t), u);
+  if (!along_.empty()) kernels_.scaling(along_.at(t), u);
   const std::size_t k = path_.segmentAt(u[0]);
   const double r = path_.inverseLength(k);
   const double x = std::min(std::max((u[0] - path_.breaks()[k]) * r, 0.0), 1.0);
   const double d1 = u[1] * r, d2 = u[2] * r, d3 = u[3] * r;
-  kernels_->segment(path_.segment(k), x, {d1, d2, d1 * d1, d3, 3.0 * d1 * d2, d1 * d1 * d1}, output);
-}
-
-void JointTrajectory::samplePieces(double t, const SampleOutput& output) const {
-  if (spans_.empty()) return;
-  const std::size_t k = spans_.size() == 1 ? 0 : breaks_.find(t);
-  const Span& span = spans_[k];
-  const double r = span.inverse_length;
-  const double x = t >= span.end && r > 0.0 ? 1.0 : (t - span.start) * r;
-  const SegmentCoefficients segment{pieces_.coefficients.data() + k * stride_, joints_, pieces_.degree};
-  kernels_->segment(segment, x, {r, 0.0, r * r, 0.0, 0.0, r * r * r}, output);
+  kernels_.segment(path_.segment(k), x, {d1, d2, d1 * d1, d3, 3.0 * d1 * d2, d1 * d1 * d1}, output);
 }
 
 void JointTrajectory::sampleSinusoid(double t, const SampleOutput& output) const {

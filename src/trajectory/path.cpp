@@ -10,6 +10,7 @@
 namespace screwline {
 namespace {
 
+constexpr double kSameBend = 1e-6;
 constexpr double kSameDirection = 1e-9;  // Of the derivatives beside: below it a difference is rounding.
 
 [[noreturn]] void refuse(const std::string& message) {
@@ -44,7 +45,8 @@ double stepAt(const PiecewisePolynomial& curve, std::size_t k, int order) {
 
 }  // namespace
 
-JointPath::JointPath(PiecewisePolynomial curve) : curve_(std::move(curve)), turns_(curve_.breaks.size(), false) {
+JointPath::JointPath(PiecewisePolynomial curve)
+    : curve_(std::move(curve)), turns_(curve_.breaks.size(), false), bends_(curve_.breaks.size(), false) {
   validate(curve_);
   curve_.continuity = std::min(curve_.continuity, 3);
   curve_.starts_at_rest = curve_.ends_at_rest = false;
@@ -52,6 +54,7 @@ JointPath::JointPath(PiecewisePolynomial curve) : curve_(std::move(curve)), turn
     const double gap = stepAt(curve_, k, 0);
     if (gap > kSameDirection) refuse("the path has a gap of " + number(gap) + " at breakpoint " + std::to_string(k));
     turns_[k] = stepAt(curve_, k, 1) > kSameDirection;
+    bends_[k] = turns_[k] || (curve_.continuity < 2 && stepAt(curve_, k, 2) > kSameBend);
     if (turns_[k]) curve_.continuity = 0;
   }
   starts_ = BreakTable(curve_.breaks);

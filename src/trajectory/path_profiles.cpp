@@ -1,17 +1,21 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "hold_jerk.h"
 #include "screwline/exception.h"
 #include "screwline/trajectory/format.h"
 #include "screwline/trajectory/path.h"
 #include "screwline/trajectory/profile.h"
 #include "screwline/trajectory/retime.h"
 #include "screwline/trajectory/segment_times.h"
+#include "screwline/trajectory/tool_speed.h"
 
 namespace screwline {
 namespace {
 
 constexpr double kMostGridPoints = 200000.0;
+constexpr double kTangent = 1e-6;  ///< Of a velocity: by how much it may be off the path's tangent.
 
 int gridPointsOf(const ProfileContext& context) {
   const double count = context.parameter("grid_points", 0.0);
@@ -20,20 +24,134 @@ int gridPointsOf(const ProfileContext& context) {
                                                  ", it must be a whole number from 0 (chosen) to 200000");
 }
 
-/// The instant of each breakpoint of the path: all of them are on the grid.
+/// What `tool_speed` allows along a path; nothing where it is not given.
+RateBound toolBound(const ProfileContext& context, const JointPath& path) {
+  const auto speed = context.parameter("tool_speed");
+  if (!speed) return {};
+  if (!(*speed > 0.0)) {
+    throw InputError(AnswerCode::kInvalidGoal,
+                     "parameter 'tool_speed' is " + number(*speed) + " m/s, it must be above 0");
+  }
+  const InverseKinematics* kinematics = context.request.kinematics;
+  if (kinematics == nullptr || kinematics->chain().size() != context.joints()) {
+    throw InputError(AnswerCode::kInvalidGoal, "parameter 'tool_speed' needs the kinematics of a robot of " +
+                                                   std::to_string(context.joints()) + " joints");
+  }
+  return toolSpeedBound(kinematics->chain(), path, *speed);
+}
+
+VectorX tangentAt(const JointPath& path, double u) {
+  const Eigen::Index n = path.joints();
+  VectorX q(n), first(n), second(n), third(n);
+  path.at(u, q.data(), first.data(), second.data(), third.data());
+  return first;
+}
+
+std::string listed(const VectorX& values) {
+  std::string text;
+  for (Eigen::Index i = 0; i < values.size(); ++i) text += (i > 0 ? ", " : "") + number(values[i]);
+  return "[" + text + "]";
+}
+
+/// The velocities that waypoints give at the ends, as rates along the path.
+class MovingEnds {
+ public:
+  MovingEnds(const ProfileContext& context, const JointPath& path, const RetimeOptions& options)
+      : context_(context), path_(path), options_(options) {}
+
+  /// @throws InputError(kInvalidGoal) for a velocity that is not along the path.
+  RetimeOptions rates() const {
+    RetimeOptions asked = options_;
+    asked.start_rate = rateOf(true);
+    asked.end_rate = rateOf(false);
+    return asked;
+  }
+
+  [[noreturn]] void refuseTooFast(bool start, double rate, double feasible) const {
+    throw InputError(AnswerCode::kLimitsInfeasible, field(start) + " is " + number(rate) +
+                                                        " times the path's tangent " + listed(tangent(start)) +
+                                                        ", feasible is 0 to " + number(feasible) + " times");
+  }
+
+ private:
+  const VectorX& velocity(bool start) const {
+    return start ? context_.waypoints().front().velocity : context_.waypoints().back().velocity;
+  }
+  VectorX tangent(bool start) const { return tangentAt(path_, start ? 0.0 : path_.length()); }
+  std::string field(bool start) const {
+    return indexed("waypoints", start ? 0 : context_.waypoints().size() - 1) + ".velocity";
+  }
+
+  double rateOf(bool start) const {
+    const VectorX& asked = velocity(start);
+    if (asked.size() == 0 || asked.cwiseAbs().maxCoeff() == 0.0) return 0.0;
+    const VectorX along = tangent(start);
+    const double rate = along.squaredNorm() > 0.0 ? asked.dot(along) / along.squaredNorm() : 0.0;
+    if (rate > 0.0 && (asked - rate * along).norm() <= kTangent * asked.norm()) return rate;
+    throw InputError(AnswerCode::kInvalidGoal, field(start) + " is " + listed(asked) +
+                                                   ", not along the path: it must be the tangent " + listed(along) +
+                                                   " times 0 to " + number(fastest(start)));
+  }
+
+  /// The greatest rate at one end, the other at rest.
+  double fastest(bool start) const {
+    RetimeOptions question = options_;
+    const VectorX along = tangent(start);
+    double rate = (context_.limits.velocity.array() / along.array().abs().max(1e-300)).minCoeff();
+    rate = std::min(rate, 1e6);
+    (start ? question.start_rate : question.end_rate) = rate;
+    const RetimeResult result = retime(path_, context_.limits, question);
+    return start ? result.start_rate : result.end_rate;
+  }
+
+  const ProfileContext& context_;
+  const JointPath& path_;
+  RetimeOptions options_;
+};
+
+/// The instant at which a law reaches a place, by halving.
+double instantOf(const RetimeResult& result, double u, double length, double duration) {
+  const auto& points = result.points;
+  const auto after =
+      std::lower_bound(points.begin(), points.end(), u, [](const RetimedPoint& p, double at) { return p.u < at; });
+  const std::vector<double>& tau = result.law.pieces().breaks;
+  const std::size_t k = static_cast<std::size_t>(after - points.begin());
+  if (k == 0) return 0.0;
+  if (k >= points.size()) return duration;
+  double low = tau[k - 1];
+  double high = tau[k];
+  if (after->u == u) return high * duration;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (result.law.at(middle).s * length < u ? low : high) = middle;
+  }
+  return high * duration;
+}
+
+/// The instant of each breakpoint of the path.
 std::vector<double> breakTimes(const JointPath& path, const RetimeResult& result, double duration) {
   std::vector<double> times;
-  const std::vector<double>& tau = result.law.pieces().breaks;
-  std::size_t k = 0;
-  for (double u : path.breaks()) {
-    while (k + 1 < result.points.size() && result.points[k].u < u) ++k;
-    times.push_back(tau[k] * duration);
-  }
+  for (double u : path.breaks()) times.push_back(instantOf(result, u, path.length(), duration));
   times.back() = duration;
   return times;
 }
 
+[[noreturn]] void refuseShort(const ProfileContext& context, const JointTrajectory& motion, double shortest) {
+  const LimitUse use = tightestUse(motion, context.limits);
+  if (use.value > use.bound * (1.0 + kLimitTolerance)) refuseDuration(context, use, shortest);
+  throw InputError(AnswerCode::kLimitsInfeasible,
+                   "profile '" + context.request.profile + "' in " + number(context.duration) +
+                       " s: the tool would pass its speed; the shortest feasible duration is " + number(shortest) +
+                       " s");
+}
+
 }  // namespace
+
+bool holdsJerk(const ProfileContext& context) {
+  const double flag = context.parameter("hold_jerk", 0.0);
+  if (flag == 0.0 || flag == 1.0) return flag == 1.0 && !context.limits.jerk.array().isInf().all();
+  throw InputError(AnswerCode::kInvalidGoal, "parameter 'hold_jerk' is " + number(flag) + ", it must be 0 or 1");
+}
 
 ProfileDraft buildPathTimeOptimal(const ProfileContext& context) {
   const auto& waypoints = context.waypoints();
@@ -44,13 +162,20 @@ ProfileDraft buildPathTimeOptimal(const ProfileContext& context) {
   const JointPath path = naturalSplinePath(knots, positionsOf(waypoints));
   RetimeOptions options;
   options.grid_points = gridPointsOf(context);
+  options.rate_bound = toolBound(context, path);
+  options.hold_jerk = holdsJerk(context);
+  const MovingEnds ends(context, path, options);
+  options = ends.rates();
+  const bool moves = options.start_rate > 0.0 || options.end_rate > 0.0;
+  if (moves) options.duration = context.duration;
   const RetimeResult result = retime(path, context.limits, options);
+  if (result.status == RetimeStatus::kStartTooFast) ends.refuseTooFast(true, options.start_rate, result.start_rate);
+  if (result.status == RetimeStatus::kEndTooFast) ends.refuseTooFast(false, options.end_rate, result.end_rate);
   const double shortest = noLessThanShortest(result.duration);
   const double duration = context.duration > 0.0 ? context.duration : shortest;
   ProfileDraft draft{JointTrajectory::alongPath(path, result.law, duration), breakTimes(path, result, duration), {}};
-  const LimitUse use = tightestUse(draft.trajectory, context.limits);
-  if (use.value > use.bound * (1.0 + kLimitTolerance)) refuseDuration(context, use, shortest);
-  return draft;
+  if (duration < shortest * (1.0 - kLimitTolerance)) refuseShort(context, draft.trajectory, shortest);
+  return meetingVias(std::move(draft));
 }
 
 }  // namespace screwline

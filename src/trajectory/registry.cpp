@@ -83,14 +83,14 @@ std::vector<Profile> jerkLimitedMoves() {
        buildTimeOptimal},
       {{"path_time_optimal",
         "the natural cubic spline through the waypoints (uniform knots), passed in the shortest time under the "
-        "velocity "
-        "and acceleration limits, from rest to rest",
-        {{"grid_points", "intervals in which the path is planned; 0 (default): 1000 or more, by the waypoints",
-          false}}},
+        "velocity and acceleration limits, from rest to rest or with velocities along the path at its ends",
+        {{"grid_points", "intervals in which the path is planned; 0 (default): by the waypoints", false},
+         {"hold_jerk", "1: the jerk limits hold too (the default where the request gives jerk_limits); 0", false},
+         {"tool_speed", "[m/s] that the tip keeps below; not given: no bound", false}}},
        2,
        kAny,
        false,
-       WaypointDerivatives::kNone,
+       WaypointDerivatives::kEndVelocity,
        buildPathTimeOptimal},
   };
 }
@@ -198,6 +198,8 @@ std::vector<Profile> freeMotions() {
 
 std::vector<Profile> cartesianMotions() {
   const ParameterInfo tool_speed{"tool_speed", "[m/s] that the tip keeps below; not given: no bound", false};
+  const ParameterInfo hold_jerk{
+      "hold_jerk", "1: the jerk limits hold too (the default where the request gives jerk_limits); 0", false};
   const std::string timed =
       "; the fastest that joint velocities and accelerations allow, slower near singularities, or by the time_law of "
       "the "
@@ -207,6 +209,7 @@ std::vector<Profile> cartesianMotions() {
         "the tip on straight lines from pose to pose, its orientation about one axis each (slerp)" + timed,
         {{"blend_radius", "[m] at which a corner is left and met again; 0 (default): a stop at each corner", false},
          {"screw", "1: constant screws instead of lines and slerp; 0 (default)", false},
+         hold_jerk,
          tool_speed}},
        2,
        kMostCartesian,
@@ -221,6 +224,7 @@ std::vector<Profile> cartesianMotions() {
         {{"centre", "1: the second waypoint is the circle's centre; 0 (default): a pose on the arc", false},
          {"long_way", "1: with a centre, the arc of more than half a turn; 0 (default): the other", false},
          {"via_orientation", "1 (default): the second pose's orientation is met; 0: slerp from end to end", false},
+         hold_jerk,
          tool_speed}},
        3,
        3,

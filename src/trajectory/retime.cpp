@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "retime_grid.h"
+#include "retime_jerk.h"
 #include "screwline/exception.h"
 #include "screwline/trajectory/format.h"
 
@@ -67,6 +68,18 @@ double greatestEnd(const RetimeGrid& grid, double x) {
   return x;
 }
 
+/// The slowest way through the sets, which may stop on the way.
+std::vector<double> slowestSpeeds(const RetimeGrid& grid, const std::vector<Range>& sets, double x) {
+  std::vector<double> speeds{x};
+  speeds.reserve(grid.u.size());
+  for (std::size_t i = 0; i < grid.intervals(); ++i) {
+    const double w = feasibleRates(grid, i, sets[i + 1], x).lower;
+    x = std::min(std::max(x + 2.0 * w * grid.length(i), std::max(0.0, sets[i + 1].lower)), sets[i + 1].upper);
+    speeds.push_back(x);
+  }
+  return speeds;
+}
+
 /// [s] of an interval. Its ends are never both at rest, but for speeds too small for a double.
 double timeOf(const RetimeGrid& grid, const std::vector<double>& rates, std::size_t interval) {
   return 2.0 * grid.length(interval) / (rates[interval] + rates[interval + 1]);
@@ -76,6 +89,26 @@ double durationOf(const RetimeGrid& grid, const std::vector<double>& rates) {
   double duration = 0.0;
   for (std::size_t i = 0; i < grid.intervals(); ++i) duration += timeOf(grid, rates, i);
   return duration;
+}
+
+/// The rates of a motion that takes `wanted`: between the fastest and the slowest, whose squares may be mixed since all
+/// limits are linear in them.
+std::vector<double> ratesFor(double wanted, const RetimeGrid& grid, const std::vector<double>& fastest,
+                             const std::vector<double>& slowest) {
+  std::vector<double> rates(fastest.size());
+  const auto mix = [&](double share) {
+    for (std::size_t i = 0; i < rates.size(); ++i)
+      rates[i] = std::sqrt((1.0 - share) * fastest[i] + share * slowest[i]);
+  };
+  double low = 0.0;
+  double high = 1.0;
+  mix(high);
+  if (durationOf(grid, rates) <= wanted) return rates;
+  for (int k = 0; k < 60; ++k) {
+    mix(0.5 * (low + high));
+    (durationOf(grid, rates) < wanted ? low : high) = 0.5 * (low + high);
+  }
+  return rates;
 }
 
 /// d^2u/dt^2 is constant between grid points: s(tau) is a chain of parabolas.
@@ -102,6 +135,7 @@ TimeLaw parabolas(const RetimeGrid& grid, const std::vector<double>& rates) {
 
 RetimeResult retime(const JointPath& path, const Limits& limits, const RetimeOptions& options) {
   validate(path, limits, options);
+  if (options.hold_jerk) return retimeWithJerk(path, limits, options);
   const RetimeGrid grid = makeGrid(path, limits, options);
   RetimeResult result;
   result.start_rate = options.start_rate;
@@ -124,8 +158,12 @@ RetimeResult retime(const JointPath& path, const Limits& limits, const RetimeOpt
     result.end_rate = std::sqrt(std::min(end, greatestEnd(grid, start)));
     return result;
   }
-  std::vector<double> rates = fastestSpeeds(grid, sets, start);
+  const std::vector<double> fastest = fastestSpeeds(grid, sets, start);
+  std::vector<double> rates = fastest;
   for (double& rate : rates) rate = std::sqrt(rate);
+  if (options.duration > durationOf(grid, rates)) {
+    rates = ratesFor(options.duration, grid, fastest, slowestSpeeds(grid, sets, start));
+  }
   if (*std::max_element(rates.begin(), rates.end()) > kUnbounded) refuse("no finite limit bounds the motion");
   result.duration = durationOf(grid, rates);
   if (!(result.duration < kUnbounded)) {

@@ -75,18 +75,25 @@ void evaluateScalingPlain(const ScalingRows& scaling, double* values) {
   store<Pair>(scalingPair(scaling, 2), values + 2);
 }
 
-void scaleDeltaPlain(const ScalingRows& scaling, const double* start, const double* delta, int joints,
-                     const SampleOutput& output) {
+template <bool kLong>
+void scaleLinePlain(const double* rows, double x, const double* line, int joints, double* position, double* velocity,
+                    double* acceleration, double* jerk) {
   double values[4];
-  evaluateScalingPlain(scaling, values);
-  scaleDelta(values, start, delta, joints, output);
+  evaluateScalingPlain({rows, kLong, x}, values);
+  scaleDelta(values, line, line + joints, joints, {position, velocity, acceleration, jerk});
 }
 
-constexpr SampleKernels kPlain{evaluateSegmentPlain, evaluateScalingPlain, scaleDeltaPlain};
+void evaluatePiecePlain(const SegmentCoefficients& segment, double x, double rate, const SampleOutput& output) {
+  evaluateSegmentPlain(segment, x, {rate, 0.0, rate * rate, 0.0, 0.0, rate * rate * rate}, output);
+}
+
+constexpr SampleKernels kPlain{evaluateSegmentPlain, evaluateScalingPlain, scaleLinePlain<true>, scaleLinePlain<false>,
+                               evaluatePiecePlain};
 
 SampleKernels chosenKernels() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  constexpr SampleKernels kWide{evaluateSegmentWide, evaluateScalingWide, scaleDeltaWide};
+  constexpr SampleKernels kWide{evaluateSegmentWide, evaluateScalingWide, scaleLineWide, scaleShortLineWide,
+                                evaluatePieceWide};
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return kWide;
 #endif
   return kPlain;

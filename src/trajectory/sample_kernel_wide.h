@@ -13,8 +13,11 @@ void evaluateJoint(const SegmentCoefficients& segment, int joint, double x, cons
 void evaluateSegmentWide(const SegmentCoefficients& segment, double x, const ChainFactors& f,
                          const SampleOutput& output);
 void evaluateScalingWide(const ScalingRows& scaling, double* values);
-void scaleDeltaWide(const ScalingRows& scaling, const double* start, const double* delta, int joints,
-                    const SampleOutput& output);
+void evaluatePieceWide(const SegmentCoefficients& segment, double x, double rate, const SampleOutput& output);
+void scaleLineWide(const double* rows, double x, const double* line, int joints, double* position, double* velocity,
+                   double* acceleration, double* jerk);
+void scaleShortLineWide(const double* rows, double x, const double* line, int joints, double* position,
+                        double* velocity, double* acceleration, double* jerk);
 
 }  // namespace screwline
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace screwline {
@@ -19,11 +20,12 @@ class BreakTable {
     const std::size_t segments = breaks.size() < 2 ? 0 : breaks.size() - 1;
     if (segments < 2 || !(breaks.back() > breaks.front())) return;
     inner_.assign(breaks.begin() + 1, breaks.end() - 1);
+    inner_.push_back(std::numeric_limits<double>::infinity());  // So that find() may look at one in any bucket.
     const std::size_t buckets = 2 * segments;
     first_ = breaks.front();
     scale_ = static_cast<double>(buckets) / (breaks.back() - breaks.front());
     before_.assign(buckets + 1, 0);
-    for (double b : inner_) ++before_[std::min(bucketOf(b), buckets - 1) + 1];
+    for (std::size_t k = 0; k + 1 < inner_.size(); ++k) ++before_[std::min(bucketOf(inner_[k]), buckets - 1) + 1];
     for (std::size_t k = 1; k <= buckets; ++k) before_[k] += before_[k - 1];
   }
 
@@ -33,6 +35,8 @@ class BreakTable {
     const std::size_t bucket = std::min(bucketOf(t), before_.size() - 2);
     std::size_t low = before_[bucket];
     std::size_t high = before_[bucket + 1];
+    // Most buckets hold one break or none: that needs no branch.
+    if (high - low < 2) return low + static_cast<std::size_t>((high > low) & (inner_[low] <= t));
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
       if (inner_[middle] <= t) {
@@ -51,7 +55,7 @@ class BreakTable {
     return place > 0.0 ? static_cast<std::size_t>(std::min(place, static_cast<double>(before_.size()))) : 0;
   }
 
-  std::vector<double> inner_;          ///< The breaks but for the first and the last.
+  std::vector<double> inner_;          ///< The breaks but for the first and the last, then infinity.
   std::vector<std::uint32_t> before_;  ///< [bucket] how many of them lie in the buckets before it.
   double first_ = 0.0;
   double scale_ = 0.0;

@@ -62,9 +62,22 @@ class JointTrajectory {
   std::vector<double> corners() const;
 
   /// State at t [s] into `point`. Allocates only where `point` has not n entries. O(log segments).
-  void sample(double t, TrajectoryPoint& point) const;
+  void sample(double t, TrajectoryPoint& point) const {
+    if (point.position.size() != joints_) point = TrajectoryPoint(joints_);
+    sample(t, point.position.data(), point.velocity.data(), point.acceleration.data(), point.jerk.data());
+  }
   /// The same into arrays of n doubles. Never allocates.
-  void sample(double t, double* position, double* velocity, double* acceleration, double* jerk) const;
+  void sample(double t, double* position, double* velocity, double* acceleration, double* jerk) const {
+    const bool inside = t >= 0.0 && t <= duration_;
+    if (inside && scale_kernel_ != nullptr) {
+      const ScalingRows at = scale_.at(t);
+      scale_kernel_(at.rows, at.x, line_.data(), joints_, position, velocity, acceleration, jerk);
+    } else if (inside && !spans_.empty()) {
+      samplePieces(t, {position, velocity, acceleration, jerk});
+    } else {
+      sampleOther(t, {position, velocity, acceleration, jerk});
+    }
+  }
 
   /// Exact figures of one joint: closed form in every form. Does not allocate.
   JointExtrema extrema(int joint) const;
@@ -88,16 +101,25 @@ class JointTrajectory {
     double inverse_length = 0.0;  ///< 0 for a piece that takes no time.
   };
 
+  void samplePieces(double t, const SampleOutput& output) const {
+    const std::size_t k = breaks_.find(t);
+    const Span& span = spans_[k];
+    const double r = span.inverse_length;
+    const double x = t >= span.end && r > 0.0 ? 1.0 : (t - span.start) * r;
+    const SegmentCoefficients segment{pieces_.coefficients.data() + k * stride_, joints_, pieces_.degree};
+    kernels_.piece(segment, x, r, output);
+  }
+  /// Every form, and instants outside.
+  void sampleOther(double t, const SampleOutput& output) const;
   void sampleScaled(double t, const SampleOutput& output) const;
   void samplePath(double t, const SampleOutput& output) const;
-  void samplePieces(double t, const SampleOutput& output) const;
   void sampleSinusoid(double t, const SampleOutput& output) const;
   int pathContinuity() const;
   JointExtrema scaledExtrema(int joint) const;
   JointExtrema pathExtrema(int joint) const;
   JointExtrema sinusoidExtrema(int joint) const;
 
-  const SampleKernels* kernels_ = &sampleKernels();
+  SampleKernels kernels_ = sampleKernels();
   Form form_ = Form::kPiecewise;
   int joints_ = 0;
   double duration_ = 0.0;
@@ -105,7 +127,10 @@ class JointTrajectory {
   VectorX start_;
   VectorX delta_;
   TimeLaw scaling_ = TimeLaw::rectangular();
-  ScalingTable table_;  ///< s, or u along a path, by time.
+  ScalingTable scale_;  ///< s by time, of the scaled form; empty where s is no polynomial or nothing takes time.
+  DeltaKernel scale_kernel_ = nullptr;  ///< For its rows; null where it is empty.
+  std::vector<double> line_;            ///< start_, then delta_.
+  ScalingTable along_;                  ///< u by time, along a path.
   JointPath path_;
   std::vector<JointExtrema> extrema_;  ///< Along a path: of each joint.
   PiecewisePolynomial pieces_;

@@ -30,6 +30,8 @@ class JointPath {
 
   /// Whether the path turns at breakpoint k (0 < k < segments): dq/du steps there, so a motion has to stop.
   bool turnsAt(std::size_t k) const { return turns_[k]; }
+  /// Whether dq/du or d^2q/du^2 steps there: a motion whose acceleration does not step has to stop.
+  bool bendsAt(std::size_t k) const { return bends_[k]; }
 
   /// The segment that holds u; at a breakpoint the later one. Outside the path the nearer end's.
   std::size_t segmentAt(double u) const { return starts_.find(u); }
@@ -48,6 +50,7 @@ class JointPath {
  private:
   PiecewisePolynomial curve_;
   std::vector<bool> turns_;
+  std::vector<bool> bends_;
   BreakTable starts_;
   std::vector<double> inverse_lengths_;
 };

@@ -37,6 +37,10 @@ struct ScalingRows {
   double x = 0.0;  ///< In [0, 1].
 };
 
+/// Arguments that fit into registers: the rows at x, the line, where the values go.
+using DeltaKernel = void (*)(const double* rows, double x, const double* line, int joints, double* position,
+                             double* velocity, double* acceleration, double* jerk);
+
 /// How a motion is sampled. None of the functions allocates.
 struct SampleKernels {
   /// Position and three derivatives of all joints in one pass of Horner's scheme, neighbouring joints side by side in a
@@ -44,9 +48,12 @@ struct SampleKernels {
   void (*segment)(const SegmentCoefficients& segment, double x, const ChainFactors& chain, const SampleOutput& output);
   /// s and its three derivatives into 4 values.
   void (*scaling)(const ScalingRows& scaling, double* values);
-  /// One scalar for all joints: start + delta s, delta s', delta s'', delta s'''.
-  void (*delta)(const ScalingRows& scaling, const double* start, const double* delta, int joints,
-                const SampleOutput& output);
+  /// One scalar for all joints: start + delta s, delta s', delta s'', delta s'''; `line` holds start, then delta, n
+  /// values each. From 8 and from 4 rows.
+  DeltaKernel long_delta;
+  DeltaKernel short_delta;
+  /// segment() where x is linear in time: its rate is dx/dt.
+  void (*piece)(const SegmentCoefficients& segment, double x, double rate, const SampleOutput& output);
 };
 
 /// For the processor that this runs on (AVX2 and FMA where it has them), and for any: the same but for rounding.

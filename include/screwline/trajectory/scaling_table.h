@@ -20,11 +20,12 @@ class ScalingTable {
   explicit ScalingTable(const PiecewisePolynomial& pieces, double stretch = 1.0);
 
   bool empty() const { return spans_.empty(); }
+  bool hasLongRows() const { return long_rows_; }
 
   /// The rows that hold at t and the place of t in their piece; at a breakpoint the later piece's, outside the range
   /// the nearer end. Does not allocate.
   ScalingRows at(double t) const {
-    const std::size_t k = spans_.size() == 1 ? 0 : breaks_.find(t);
+    const std::size_t k = breaks_.find(t);
     const Span& span = spans_[k];
     const double x = t < span.end ? (t - span.start) * span.inverse_length : 1.0;
     return {rows_.data() + k * stride_, long_rows_, x > 0.0 ? x : 0.0};
