@@ -10,12 +10,13 @@
 #include "numeric_check.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/kinematics/propagation.h"
+#include "sections.h"
 
 namespace screwline {
 namespace {
 
-constexpr std::array<const char*, 6> kQuantities = {"fk",          "jacobian",      "propagation",
-                                                    "determinant", "singularities", "ik"};
+constexpr std::array<const char*, 7> kQuantities = {
+    "fk", "jacobian", "propagation", "determinant", "singularities", "statics", "ik"};
 
 constexpr double kRounding = 1e-12;  ///< Share of Hadamard's bound below which a determinant is rounding.
 
@@ -55,7 +56,14 @@ class Deriver {
     if (wants("jacobian")) writeJacobian();
     if (wants("propagation")) writePropagation();
     if (wants("determinant") || wants("singularities")) writeDeterminant();
-    if (wants("singularities")) writeConditions();
+    if (wants("singularities")) {
+      watch_.begin("singularities");
+      result_.conditions = writeSingularities(draft());
+    }
+    if (wants("statics")) {
+      watch_.begin("statics");
+      writeStatics(draft());
+    }
     if (wants("ik")) writeInverse();
     if (options_.quantities != std::vector<std::string>{"ik"}) writeCheck();
     result_.document = document_.finished();
@@ -256,27 +264,7 @@ class Deriver {
         {1, 1, {value}}, [&](const VectorX& q) -> MatrixX { return MatrixX::Constant(1, 1, determinant(q)); }, largest);
   }
 
-  void writeConditions() {
-    watch_.begin("singularities");
-    document_.heading(2, "Singular conditions");
-    result_.conditions = conditionsOf(symbolic_, chain_, task_);
-    if (result_.conditions.empty()) {
-      document_.paragraph(document_.text("No factor that depends on the joints was found."));
-      return;
-    }
-    std::vector<std::string> items;
-    for (const ConditionFormula& condition : result_.conditions) {
-      std::string item = document_.text(condition.name) + ": " + document_.formula(condition.left_side) + " = 0";
-      for (const ConditionSolution& solution : condition.solutions) {
-        std::string values;
-        for (const Formula& value : solution.values)
-          values += (values.empty() ? "" : " or ") + document_.formula(value);
-        item += "; " + document_.formula(Formula::symbol(solution.joint)) + " = " + values;
-      }
-      items.push_back(item + ". " + document_.text(condition.meaning) + ".");
-    }
-    document_.list(items);
-  }
+  SectionDraft draft() { return {chain_, task_, symbolic_, document_, check_}; }
 
   void writeInverse() {
     if (options_.inverse.empty()) return;

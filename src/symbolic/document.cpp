@@ -67,6 +67,12 @@ std::string DocumentWriter::formula(const Formula& formula) const {
   return format_ == DocumentFormat::kText ? written(formula) : "$" + written(formula) + "$";
 }
 
+std::string DocumentWriter::tuple(const FormulaMatrix& column) const {
+  std::string entries;
+  for (const Formula& entry : column.entries) entries += (entries.empty() ? "" : ", ") + written(entry);
+  return symbol("(" + entries + ")", "\\left(" + entries + "\\right)");
+}
+
 std::string DocumentWriter::text(const std::string& plain) const {
   return format_ == DocumentFormat::kLatex ? latexEscaped(plain) : plain;
 }

@@ -10,7 +10,7 @@
 namespace screwline {
 
 struct DerivationOptions {
-  /// Of fk, jacobian, propagation, determinant, singularities, ik; empty: all.
+  /// Of fk, jacobian, propagation, determinant, singularities, statics, ik; empty: all.
   std::vector<std::string> quantities;
   DocumentFormat format = DocumentFormat::kMarkdown;
   std::vector<std::string> inverse;  ///< Lines that tell of inverse kinematics (ik/method_summary.h), for `ik`.

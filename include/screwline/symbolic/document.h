@@ -30,6 +30,8 @@ class DocumentWriter {
 
   /// A formula, a piece of plain text, within a paragraph, list or table.
   std::string formula(const Formula& formula) const;
+  /// "(a, b, c)" of a column.
+  std::string tuple(const FormulaMatrix& column) const;
   std::string text(const std::string& plain) const;
   /// LaTeX where the format has it, else the text.
   std::string symbol(const std::string& in_text, const std::string& in_latex) const;
