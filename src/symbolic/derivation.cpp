@@ -15,8 +15,8 @@
 namespace screwline {
 namespace {
 
-constexpr std::array<const char*, 7> kQuantities = {
-    "fk", "jacobian", "propagation", "determinant", "singularities", "statics", "ik"};
+constexpr std::array<const char*, 8> kQuantities = {
+    "drawing", "fk", "jacobian", "propagation", "determinant", "singularities", "statics", "ik"};
 
 constexpr double kRounding = 1e-12;  ///< Share of Hadamard's bound below which a determinant is rounding.
 
@@ -52,6 +52,7 @@ class Deriver {
   Derivation run() {
     for (const std::string& quantity : options_.quantities) requireKnown(quantity);
     writeHead();
+    if (wants("drawing")) writeDrawing();
     if (wants("fk")) writeForward();
     if (wants("jacobian")) writeJacobian();
     if (wants("propagation")) writePropagation();
@@ -106,6 +107,16 @@ class Deriver {
     }
     document_.table({"symbol", "name", "value", "meaning"}, rows);
     writeTable();
+  }
+
+  void writeDrawing() {
+    if (options_.format == DocumentFormat::kText) return;
+    const Drawing drawing = drawingOf(chain_, symbolic_);
+    result_.drawing = svgOf(drawing);
+    if (options_.format == DocumentFormat::kMarkdown && options_.drawing_file.empty()) return;
+    document_.heading(2, "Frames");
+    document_.figure(drawing, "Frames of the modified Denavit-Hartenberg table, at a bent configuration",
+                     options_.drawing_file);
   }
 
   void writeTable() {

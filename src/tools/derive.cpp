@@ -1,32 +1,39 @@
 // Derives a robot's kinematics as formulas and prints them as a document. Needs no ROS master.
 
+#include <fstream>
 #include <iostream>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "pdf.h"
 #include "screwline/exception.h"
 #include "screwline/ik/method_summary.h"
 #include "screwline/kinematics/task_selection.h"
 #include "screwline/model/urdf_reader.h"
 #include "screwline/symbolic/derivation.h"
+#include "screwline/symbolic/drawing.h"
 
 namespace {
 
 constexpr int kUsageError = 2;
 
 constexpr const char* kUsage =
-    "usage: derive ROBOT.urdf [--format text|markdown|latex] [--quantities fk,jacobian,propagation,determinant,"
-    "singularities,ik]\n"
+    "usage: derive ROBOT.urdf [--format text|markdown|latex|html|pdf|svg] [--drawing FILE.svg]\n"
+    "              [--quantities drawing,fk,jacobian,propagation,determinant,singularities,statics,ik]\n"
     "              [--task x,y,z,rx,ry,rz] [--base LINK] [--tip LINK] [--share-lengths]\n"
     "Prints forward kinematics, Jacobian, propagation, the task determinant in factors and the singular conditions as\n"
     "formulas, checked against numbers. Progress is told on standard error; Ctrl-C ends it.\n"
+    "  --format pdf     needs pdflatex (texlive-latex-base); svg is the drawing of the frames alone\n"
+    "  --drawing        where the drawing is written that a Markdown document refers to\n"
     "  --share-lengths  lengths of equal size become one symbol\n";
 
 struct Arguments {
   std::string file;
   screwline::ChainChoice choice;
   std::vector<std::string> task;
+  std::string format = "markdown";
+  std::string drawing;  ///< The file to write it to; empty: none.
   screwline::DerivationOptions options;
 };
 
@@ -53,7 +60,11 @@ bool parse(const std::vector<std::string>& words, Arguments& arguments) {
     if (i + 1 == words.size()) return false;
     const std::string& value = words[++i];
     if (word == "--format") {
-      arguments.options.format = screwline::documentFormatOf(value);
+      arguments.format = value;
+      if (value != "svg") arguments.options.format = screwline::documentFormatOf(value == "pdf" ? "latex" : value);
+    } else if (word == "--drawing") {
+      arguments.drawing = value;
+      arguments.options.drawing_file = value.substr(value.find_last_of('/') + 1);
     } else if (word == "--quantities") {
       arguments.options.quantities = splitAtCommas(value);
     } else if (word == "--task") {
@@ -75,7 +86,14 @@ void derive(Arguments& arguments) {
       arguments.task.empty() ? screwline::deriveTask(chain) : screwline::Task::parse(arguments.task);
   arguments.options.progress.report = [](const std::string& stage) { std::cerr << "derive: " << stage << std::endl; };
   arguments.options.inverse = screwline::summaryOf(screwline::InverseKinematics(chain, task));
-  std::cout << screwline::deriveDocument(chain, task, arguments.options).document << std::flush;
+  if (arguments.format == "svg") {
+    std::cout << screwline::svgOf(screwline::drawingOf(chain, screwline::SymbolicChain(chain))) << std::flush;
+    return;
+  }
+  const screwline::Derivation derivation = screwline::deriveDocument(chain, task, arguments.options);
+  if (!arguments.drawing.empty() && !(std::ofstream(arguments.drawing) << derivation.drawing << std::flush))
+    throw screwline::Exception("--drawing: '" + arguments.drawing + "' cannot be written");
+  std::cout << (arguments.format == "pdf" ? screwline::pdfOf(derivation.document) : derivation.document) << std::flush;
 }
 
 }  // namespace

@@ -10,10 +10,11 @@
 namespace screwline {
 
 struct DerivationOptions {
-  /// Of fk, jacobian, propagation, determinant, singularities, statics, ik; empty: all.
+  /// Of drawing, fk, jacobian, propagation, determinant, singularities, statics, ik; empty: all.
   std::vector<std::string> quantities;
   DocumentFormat format = DocumentFormat::kMarkdown;
   std::vector<std::string> inverse;  ///< Lines that tell of inverse kinematics (ik/method_summary.h), for `ik`.
+  std::string drawing_file;          ///< What a Markdown document calls the drawing; empty: it has none.
   SymbolicOptions symbolic;
   int check_configurations = 100;  ///< Random ones at which each formula is compared with the numeric core.
   Progress progress;
@@ -22,6 +23,7 @@ struct DerivationOptions {
 /// What was derived of a chain.
 struct Derivation {
   std::string document;
+  std::string drawing;  ///< SVG, where the drawing was asked for and the format is not text.
   /// Infix, of the task determinant: their product is it. One, the sum of the squares of the minors, where the task is
   /// not square. Empty where the determinant was not asked for.
   std::vector<std::string> factors;
