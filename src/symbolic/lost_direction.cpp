@@ -252,12 +252,25 @@ class LossFinder {
     return length;
   }
 
+  /// The same with the slide at its value, where that is a sum of lengths.
+  ExactWrench withSlide(const ExactWrench& wrench, const TrigPolynomial& f, int joint) const {
+    const TrigPolynomial constant = f.atScalar(joint, TrigPolynomial(exact_.ring));
+    const TrigPolynomial slope = f.atScalar(joint, TrigPolynomial::number(exact_.ring, 1)) - constant;
+    const TrigPolynomial slide = TrigPolynomial::scalar(exact_.ring, joint);
+    if (!slope.isNumber() || slope.isZero() || !(constant + slope * slide == f)) return wrench;
+    const TrigPolynomial value = constant.scaled(Rational(-1) / slope.terms().begin()->second);
+    ExactWrench result = wrench;
+    for (TrigPolynomial& entry : result.entries) entry = entry.atScalar(joint, value);
+    reduceDirection(result.entries, nullptr, exact_.table.symbols);
+    return lengthOf(result) <= lengthOf(wrench) ? result : wrench;
+  }
+
   /// The same with the condition's joint at its value, where that is exact and the same for all of them.
   ExactWrench solved(const ExactWrench& wrench, const ExactCondition& condition) const {
     if (isLong(wrench.entries) || condition.numeric.joints.size() != 1 || condition.numeric.roots.empty())
       return wrench;
     const int joint = condition.numeric.joints.front();
-    if (!chain_.joint(joint).isRevolute()) return wrench;
+    if (!chain_.joint(joint).isRevolute()) return withSlide(wrench, condition.base, joint);
     std::optional<ExactWrench> common;
     for (const double root : condition.numeric.roots) {
       const double steps = std::round(root / (kPi / 12.0));
