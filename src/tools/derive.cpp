@@ -21,11 +21,12 @@ constexpr int kUsageError = 2;
 constexpr const char* kUsage =
     "usage: derive ROBOT.urdf [--format text|markdown|latex|html|pdf|svg] [--drawing FILE.svg]\n"
     "              [--quantities drawing,fk,jacobian,propagation,determinant,singularities,statics,ik]\n"
-    "              [--task x,y,z,rx,ry,rz] [--base LINK] [--tip LINK] [--share-lengths]\n"
+    "              [--task x,y,z,rx,ry,rz] [--base LINK] [--tip LINK] [--share-lengths] [--keep-angles]\n"
     "Prints forward kinematics, Jacobian, propagation, the task determinant in factors and the singular conditions as\n"
     "formulas, checked against numbers. Progress is told on standard error; Ctrl-C ends it.\n"
     "  --format pdf     needs pdflatex (texlive-latex-base); svg is the drawing of the frames alone\n"
     "  --drawing        where the drawing is written that a Markdown document refers to\n"
+    "  --keep-angles    1.5708 is not taken as a right angle\n"
     "  --share-lengths  lengths of equal size become one symbol\n";
 
 struct Arguments {
@@ -48,6 +49,10 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
 bool parse(const std::vector<std::string>& words, Arguments& arguments) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
+    if (word == "--keep-angles") {
+      arguments.options.right_angles = 0.0;
+      continue;
+    }
     if (word == "--share-lengths") {
       arguments.options.symbolic.share_equal_lengths = true;
       continue;

@@ -6,6 +6,7 @@
 
 #include "screwline/symbolic/conditions.h"
 #include "screwline/symbolic/document.h"
+#include "screwline/symbolic/right_angles.h"
 
 namespace screwline {
 
@@ -16,7 +17,8 @@ struct DerivationOptions {
   std::vector<std::string> inverse;  ///< Lines that tell of inverse kinematics (ik/method_summary.h), for `ik`.
   std::string drawing_file;          ///< What a Markdown document calls the drawing; empty: it has none.
   SymbolicOptions symbolic;
-  int check_configurations = 100;  ///< Random ones at which each formula is compared with the numeric core.
+  double right_angles = kRightAngleTolerance;  ///< [rad] For withRightAngles(); 0: angles are taken as they are.
+  int check_configurations = 100;              ///< Random ones at which each formula is compared with the numeric core.
   Progress progress;
 };
 
@@ -30,9 +32,12 @@ struct Derivation {
   std::vector<std::string> symbols;   ///< Of lengths and constant angles in the factors and the document.
   std::vector<double> symbol_values;  ///< m, rad.
   std::vector<ConditionFormula> conditions;
-  double worst_deviation = 0.0;  ///< Of any derived formula from the numeric core, relative.
+  double right_angle_turn = 0.0;  ///< [rad] Largest turn of an axis into a right angle; 0: none was turned.
+  double worst_deviation = 0.0;   ///< Of any derived formula from the numeric core, relative.
 };
 
+/// Axes that are a rounded right angle off are put right first (withRightAngles()), and the document says how far that
+/// moved the tip; what is derived is compared with the chain so changed.
 /// Derives what is asked for, checks it against the numeric core and writes it down. @throws InputError (kInvalidGoal)
 /// for an unknown quantity, DerivationStopped where it was cancelled or grew too large.
 Derivation deriveDocument(const SerialChain& chain, const Task& task, const DerivationOptions& options);
