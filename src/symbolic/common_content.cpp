@@ -62,6 +62,12 @@ void divideByNumber(std::vector<TrigPolynomial>& entries) {
 }  // namespace
 
 void reduceDirection(std::vector<TrigPolynomial>& entries, const TrigPolynomial* zero, const SymbolTable& symbols) {
+  const auto is_not_zero = [](const TrigPolynomial& entry) { return !entry.isZero(); };
+  if (std::count_if(entries.begin(), entries.end(), is_not_zero) == 1) {  // A coordinate axis.
+    TrigPolynomial& only = *std::find_if(entries.begin(), entries.end(), is_not_zero);
+    only = TrigPolynomial::number(only.ring(), 1);
+    return;
+  }
   std::vector<FactoredPolynomial> parts;
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < entries.size(); ++i) {
