@@ -1,6 +1,8 @@
 #include <ros/init.h>
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "screwline/ik/inverse_outline_of.h"
@@ -21,10 +23,13 @@ Outcome KinematicsServer::derive(const Derive::Request& request, Derive::Respons
   options.format = documentFormatOf(request.format.empty() ? "markdown" : request.format);
   const auto& asked = request.quantities;
   const bool inverse = asked.empty() || std::find(asked.begin(), asked.end(), "ik") != asked.end();
-  const auto solver = solverFor(linkOrTip("", "tip_link"), robot_.task);
+  // Of the chain that the document describes: the robot's own, or with its rounded right angles put in.
+  const std::optional<SquaredChain> squared = inverse ? withRightAngles(chain, options.right_angles) : std::nullopt;
+  const auto solver = squared ? std::make_shared<const InverseKinematics>(squared->chain, robot_.task)
+                              : solverFor(linkOrTip("", "tip_link"), robot_.task);
   if (inverse) {
     options.inverse = summaryOf(*solver);
-    options.inverse_outline = inverseOutlineOf(chain, robot_.task);
+    options.inverse_outline = inverseOutlineOf(solver->chain(), robot_.task);
     options.inverse_solver = everySolution(*solver);
   }
   options.progress.time_limit = params_.derive_timeout;

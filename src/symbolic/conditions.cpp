@@ -8,6 +8,7 @@
 #include "../kinematics/factor_names.h"
 #include "../kinematics/factor_roots.h"
 #include "../kinematics/sampling.h"
+#include "exact_conditions.h"
 #include "exact_determinant.h"
 #include "numeric_terms.h"
 
@@ -133,13 +134,21 @@ std::vector<SingularityFactor> namedFactors(const ExactChain& exact, const Seria
 
 }  // namespace
 
+std::vector<ExactCondition> exactConditions(const ExactChain& exact, const SerialChain& chain, const Task& task) {
+  const std::vector<TrigPolynomial> shared = sharedFactors(exact, exactDeterminant(exact, task));
+  std::vector<SingularityFactor> named = namedFactors(exact, chain, shared);
+  std::vector<ExactCondition> conditions;
+  for (std::size_t i = 0; i < shared.size(); ++i) conditions.push_back({shared[i], std::move(named[i])});
+  return conditions;
+}
+
 std::vector<ConditionFormula> conditionsOf(const SymbolicChain& symbolic, const SerialChain& chain, const Task& task) {
   const ExactChain& exact = symbolic.exact();
-  const std::vector<TrigPolynomial> shared = sharedFactors(exact, exactDeterminant(exact, task));
-  const std::vector<SingularityFactor> named = namedFactors(exact, chain, shared);
   std::vector<ConditionFormula> conditions;
-  for (std::size_t i = 0; i < shared.size(); ++i)
-    conditions.push_back({named[i].name, named[i].meaning, exact.formula(shared[i]), solutionsOf(exact, shared[i])});
+  for (const ExactCondition& condition : exactConditions(exact, chain, task)) {
+    conditions.push_back({condition.numeric.name, condition.numeric.meaning, exact.formula(condition.base),
+                          solutionsOf(exact, condition.base)});
+  }
   return conditions;
 }
 

@@ -37,7 +37,7 @@ ExactDeterminant workedOut(const ExactChain& chain, const Task& task) {
   const bool turns =
       isWholeOrNone(task.translationCount()) && (task.usesToolAxes() || isWholeOrNone(task.rotationCount()));
   const bool moves = task.size() == 6 && chain.joints >= 6;
-  ExactDeterminant result{0, TrigMatrix(chain.ring, 0, 0), {}};
+  ExactDeterminant result{0, tip, TrigMatrix(chain.ring, 0, 0), {}};
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   for (int frame = 0; frame <= (turns ? tip : 0); ++frame) {
     TrigMatrix J = rowsOf(chain, task, frame, moves ? frame : tip);
@@ -45,6 +45,7 @@ ExactDeterminant workedOut(const ExactChain& chain, const Task& task) {
     if (count >= fewest) continue;
     fewest = count;
     result.frame = frame;
+    result.point = moves ? frame : tip;
     result.jacobian = std::move(J);
   }
   for (const TrigPolynomial& minor : largestMinors(result.jacobian)) {

@@ -13,6 +13,7 @@ namespace screwline {
 /// shortest, and its largest minors in factors.
 struct ExactDeterminant {
   int frame = 0;
+  int point = 0;  ///< The frame whose origin the velocity is of.
   TrigMatrix jacobian;
   std::vector<FactoredPolynomial> minors;  ///< A minor that is zero has the coefficient 0 and no factors.
 

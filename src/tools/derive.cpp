@@ -1,10 +1,12 @@
 // Derives a robot's kinematics as formulas and prints them as a document. Needs no ROS master.
 
+#include <fstream>
 #include <iostream>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "pdf.h"
 #include "screwline/exception.h"
 #include "screwline/ik/inverse_outline_of.h"
 #include "screwline/ik/method_summary.h"
@@ -12,25 +14,31 @@
 #include "screwline/model/urdf_reader.h"
 #include "screwline/symbolic/cpp_header.h"
 #include "screwline/symbolic/derivation.h"
+#include "screwline/symbolic/drawing.h"
 
 namespace {
 
 constexpr int kUsageError = 2;
 
 constexpr const char* kUsage =
-    "usage: derive ROBOT.urdf [--format text|markdown|latex|cpp] [--quantities fk,jacobian,propagation,determinant,"
-    "singularities,ik]\n"
-    "              [--task x,y,z,rx,ry,rz] [--base LINK] [--tip LINK] [--share-lengths]\n"
-    "Prints forward kinematics, Jacobian, propagation, the task determinant in factors, the singular conditions and\n"
-    "inverse kinematics as formulas, checked against numbers. Progress is told on standard error; Ctrl-C ends it.\n"
+    "usage: derive ROBOT.urdf [--format text|markdown|latex|html|pdf|svg|cpp] [--drawing FILE.svg]\n"
+    "              [--quantities drawing,fk,jacobian,propagation,determinant,singularities,statics,ik]\n"
+    "              [--task x,y,z,rx,ry,rz] [--base LINK] [--tip LINK] [--share-lengths] [--keep-angles]\n"
+    "Prints forward kinematics, Jacobian, propagation, the task determinant in factors, the singular conditions,\n"
+    "statics and inverse kinematics as formulas, checked against numbers. Progress is told on standard error; Ctrl-C\n"
+    "ends it.\n"
     "  --format cpp     a C++17 header of the robot's own forward kinematics, Jacobian and inverse kinematics\n"
+    "  --format pdf     needs pdflatex (texlive-latex-base); svg is the drawing of the frames alone\n"
+    "  --drawing        where the drawing is written that a Markdown document refers to\n"
+    "  --keep-angles    1.5708 is not taken as a right angle\n"
     "  --share-lengths  lengths of equal size become one symbol\n";
 
 struct Arguments {
   std::string file;
   screwline::ChainChoice choice;
   std::vector<std::string> task;
-  bool cpp = false;  ///< A header instead of a document.
+  std::string format = "markdown";
+  std::string drawing;  ///< The file to write it to; empty: none.
   screwline::DerivationOptions options;
 };
 
@@ -45,6 +53,10 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
 bool parse(const std::vector<std::string>& words, Arguments& arguments) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
+    if (word == "--keep-angles") {
+      arguments.options.right_angles = 0.0;
+      continue;
+    }
     if (word == "--share-lengths") {
       arguments.options.symbolic.share_equal_lengths = true;
       continue;
@@ -56,10 +68,13 @@ bool parse(const std::vector<std::string>& words, Arguments& arguments) {
     }
     if (i + 1 == words.size()) return false;
     const std::string& value = words[++i];
-    if (word == "--format" && value == "cpp") {
-      arguments.cpp = true;
-    } else if (word == "--format") {
-      arguments.options.format = screwline::documentFormatOf(value);
+    if (word == "--format") {
+      arguments.format = value;
+      const bool is_document = value != "svg" && value != "cpp";
+      if (is_document) arguments.options.format = screwline::documentFormatOf(value == "pdf" ? "latex" : value);
+    } else if (word == "--drawing") {
+      arguments.drawing = value;
+      arguments.options.drawing_file = value.substr(value.find_last_of('/') + 1);
     } else if (word == "--quantities") {
       arguments.options.quantities = splitAtCommas(value);
     } else if (word == "--task") {
@@ -89,13 +104,26 @@ void derive(Arguments& arguments) {
   const screwline::Task task =
       arguments.task.empty() ? screwline::deriveTask(chain) : screwline::Task::parse(arguments.task);
   arguments.options.progress.report = [](const std::string& stage) { std::cerr << "derive: " << stage << std::endl; };
-  const screwline::InverseKinematics ik(chain, task);
+  if (arguments.format == "svg") {
+    std::cout << screwline::svgOf(screwline::drawingOf(chain, screwline::SymbolicChain(chain))) << std::flush;
+    return;
+  }
+  // A document may describe the chain with its right angles put in; a header is of the chain as it is.
+  const bool is_header = arguments.format == "cpp";
+  const auto squared = screwline::withRightAngles(chain, is_header ? 0.0 : arguments.options.right_angles);
+  const screwline::SerialChain& described = squared ? squared->chain : chain;
+  const screwline::InverseKinematics ik(described, task);
   arguments.options.inverse = screwline::summaryOf(ik);
-  arguments.options.inverse_outline = screwline::inverseOutlineOf(chain, task);
+  arguments.options.inverse_outline = screwline::inverseOutlineOf(described, task);
   arguments.options.inverse_solver = screwline::everySolution(ik);
-  std::cout << (arguments.cpp ? headerOf(chain, task, arguments.options)
-                              : screwline::deriveDocument(chain, task, arguments.options).document)
-            << std::flush;
+  if (is_header) {
+    std::cout << headerOf(chain, task, arguments.options) << std::flush;
+    return;
+  }
+  const screwline::Derivation derivation = screwline::deriveDocument(chain, task, arguments.options);
+  if (!arguments.drawing.empty() && !(std::ofstream(arguments.drawing) << derivation.drawing << std::flush))
+    throw screwline::Exception("--drawing: '" + arguments.drawing + "' cannot be written");
+  std::cout << (arguments.format == "pdf" ? screwline::pdfOf(derivation.document) : derivation.document) << std::flush;
 }
 
 }  // namespace

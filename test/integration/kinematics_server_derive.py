@@ -47,8 +47,8 @@ class Derivations(unittest.TestCase):
 
     def test_every_quantity_and_format(self):
         server = self.servers['puma560']
-        for form in ('markdown', 'latex', 'text'):
-            for quantity in ('fk', 'jacobian', 'propagation', 'determinant', 'singularities', 'ik'):
+        for form in ('markdown', 'latex', 'text', 'html'):
+            for quantity in ('fk', 'jacobian', 'propagation', 'determinant', 'singularities', 'statics', 'ik'):
                 answer = server.ask('derive', quantities=[quantity], format=form)
                 self.assertTrue(answer.success, answer.message)
                 self.assertGreater(len(answer.document), 100)
@@ -62,7 +62,7 @@ class Derivations(unittest.TestCase):
         self.assertEqual(server.ask('derive').document, server.ask('derive').document)
 
     def test_what_is_not_known_is_refused_by_name(self):
-        for request, words in (({'format': 'docx'}, 'docx'), ({'quantities': ['dynamics']}, 'dynamics'),
+        for request, words in (({'format': 'docx'}, 'docx'), ({'format': 'pdf'}, 'pdf'), ({'quantities': ['dynamics']}, 'dynamics'),
                                ({'quantities': ['fk'] * 1000}, 'quantities')):
             answer = self.servers['scara'].derive(**request)
             self.assertFalse(answer.success)

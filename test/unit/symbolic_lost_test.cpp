@@ -1,0 +1,163 @@
+// What the singular conditions of every shipped robot lose, against the numeric core.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "golden.h"
+#include "screwline/kinematics/singularity.h"
+#include "screwline/kinematics/task_selection.h"
+#include "screwline/model/urdf_reader.h"
+#include "screwline/symbolic/conditions.h"
+#include "screwline/symbolic/lost_direction.h"
+#include "screwline/symbolic/statics.h"
+
+namespace screwline {
+namespace {
+
+SerialChain robot(const std::string& name) {
+  return readUrdfFile(std::string(SCREWLINE_SOURCE_DIR) + "/urdf/" + name + ".urdf");
+}
+
+struct Case {
+  SerialChain chain;
+  Task task;
+  SymbolicChain symbolic;
+  std::vector<ConditionFormula> conditions;
+  std::vector<ConditionLoss> losses;
+  std::vector<ConditionMeeting> meetings;
+
+  explicit Case(const SerialChain& given) : Case(given, deriveTask(given)) {}
+  Case(const SerialChain& given, const Task& rows)
+      : chain(given),
+        task(rows),
+        symbolic(chain),
+        conditions(conditionsOf(symbolic, chain, task)),
+        losses(lossesOf(symbolic, chain, task)),
+        meetings(meetingsOf(symbolic, chain, task)) {}
+
+  std::string text(const FormulaMatrix& column) const {
+    std::string all;
+    for (const Formula& entry : column.entries)
+      all += (all.empty() ? "" : ", ") + write(entry, symbolic.symbols(), FormulaStyle::kText);
+    return all;
+  }
+};
+
+TEST(SymbolicLost, DirectionsOfTheSourcesInTheBase) {
+  const Case planar(robot("rr_planar"));
+  ASSERT_EQ(planar.losses.size(), 1u);
+  EXPECT_EQ(planar.losses[0].ranks, std::vector<int>{1});
+  EXPECT_EQ(planar.text(planar.losses[0].directions.at(0).in_base), "c1, s1, 0");
+
+  const Case articulated(robot("rrr_articulated"));
+  ASSERT_EQ(articulated.losses.size(), 2u);
+  EXPECT_EQ(articulated.text(articulated.losses[1].directions.at(0).in_base), "-s1, c1, 0");
+  ASSERT_EQ(articulated.meetings.size(), 1u);
+  EXPECT_EQ(articulated.meetings[0].ranks, std::vector<int>{1});
+
+  const Case spherical(robot("rrp_spherical"));
+  EXPECT_EQ(spherical.losses[0].ranks, std::vector<int>{1});
+  EXPECT_EQ(spherical.losses[0].directions.size(), 2u);
+}
+
+TEST(SymbolicLost, RanksOfTheRrprrr) {
+  const Case arm(robot("rrprrr"));
+  ASSERT_EQ(arm.losses.size(), 2u);
+  for (const ConditionLoss& loss : arm.losses) EXPECT_EQ(loss.ranks, std::vector<int>{5});
+  EXPECT_EQ(arm.meetings.at(0).ranks, std::vector<int>{4});
+  EXPECT_TRUE(arm.losses[0].directions.at(0).isTranslation());
+  EXPECT_TRUE(arm.losses[1].directions.at(0).isRotation());
+}
+
+/// At golden singular poses where one condition alone is active, the formula is the direction that is printed there.
+TEST(SymbolicLost, GoldenDirections) {
+  int compared = 0;
+  int others = 0;
+  for (const std::string& name : golden::names()) {
+    const golden::File& file = *golden::load(name);
+    const Case arm(file.table, file.task);
+    for (std::size_t i = 0; i < arm.conditions.size(); ++i)
+      EXPECT_FALSE(arm.losses[i].directions.empty()) << name << ": " << arm.conditions[i].name;
+    for (const golden::Case& pose : file.cases) {
+      const std::vector<double> values = arm.symbolic.symbols().valuesAt(pose.q);
+      std::vector<std::size_t> active;
+      for (std::size_t i = 0; i < arm.conditions.size(); ++i) {
+        if (std::abs(arm.conditions[i].left_side.evaluate(values)) < 1e-12) active.push_back(i);
+      }
+      if (active.size() != 1 || arm.losses[active[0]].directions.size() != 1) continue;
+      const LostDirection& direction = arm.losses[active[0]].directions[0];
+      if (direction.in_base.rows == 0 || direction.point != arm.symbolic.size() + 1) continue;
+      const Vector3 ours = direction.in_base.evaluate(values);
+      Matrix6X J;
+      geometricJacobian(arm.chain, pose.q, J);
+      const TaskRank rank = taskRank(arm.task.select(J), jacobianNoise(J));
+      if (rank.lost_directions.rows() != 1 || ours.norm() < 1e-6) continue;
+      Vector6 whole = Vector6::Zero();
+      (direction.isTranslation() ? whole.head<3>() : whole.tail<3>()) = ours.normalized();
+      EXPECT_NEAR(std::abs(rank.lost_directions.row(0).dot(arm.task.select(whole).transpose())), 1.0, 1e-9)
+          << name << ' ' << pose.id;
+      const Vector6 turned(Vector6::NullaryExpr([&whole](Eigen::Index k) { return whole[(k + 1) % 3 + k / 3 * 3]; }));
+      others += std::abs(rank.lost_directions.row(0).dot(arm.task.select(turned).transpose())) < 0.999 ? 1 : 0;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 25);
+  EXPECT_GT(others, 20) << "the comparison compares nothing";
+}
+
+class Robots : public testing::TestWithParam<std::string> {};
+
+TEST_P(Robots, LoseWhatTheJacobianLoses) {
+  const Case arm(robot(GetParam()));
+  EXPECT_FALSE(arm.conditions.empty());
+  for (std::size_t i = 0; i < arm.conditions.size(); ++i) {
+    SCOPED_TRACE(arm.conditions[i].name);
+    EXPECT_FALSE(arm.losses[i].ranks.empty());
+    // The line that meets all axes of a straight UR arm has no short formula.
+    EXPECT_EQ(arm.losses[i].directions.empty(), GetParam() == "ur5" && arm.conditions[i].name == "elbow");
+    EXPECT_LE(arm.losses[i].deviation, 1e-11);
+  }
+  const std::size_t count = arm.conditions.size();
+  EXPECT_EQ(arm.meetings.size(), count * (count - 1) / 2 + (count > 2 ? 1 : 0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Robots,
+                         testing::Values("puma560", "stanford_arm", "kr6_r900", "ur5", "scara_600", "spherical_wrist",
+                                         "orienting_3r", "rpp_cylindrical", "rrp_offset"));
+
+/// Virtual work: tau . qd = F . V, with the power of the tip's twist.
+TEST(SymbolicStatics, DoesTheWorkOfTheTip) {
+  for (const char* name : {"rr_planar", "rrp_offset", "scara", "puma560", "stanford_arm"}) {
+    SCOPED_TRACE(name);
+    const SerialChain chain = robot(name);
+    const SymbolicChain symbolic(chain);
+    const StaticsFormula statics = staticsOf(symbolic);
+    ASSERT_EQ(statics.efforts.size(), static_cast<std::size_t>(chain.size()));
+    for (int k = 1; k <= 20; ++k) {
+      const VectorX q = VectorX::LinSpaced(chain.size(), 0.3, 1.1) * std::cos(1.7 * k);
+      const VectorX rates = VectorX::LinSpaced(chain.size(), -1.0, 0.7);
+      Vector6 wrench;
+      wrench << 2.0, -1.0, 0.5, 0.3, 0.2, -0.4;
+      std::vector<double> values = symbolic.symbols().valuesAt(q);
+      const int first = *symbolic.symbols().find("fx");
+      for (int i = 0; i < 6; ++i) values[static_cast<std::size_t>(first + i)] = wrench[i];
+      double work = 0.0;
+      for (int i = 0; i < chain.size(); ++i)
+        work += rates[i] * statics.efforts[static_cast<std::size_t>(i)].evaluate(values);
+      const FormulaMatrix rotation = symbolic.pose(0, statics.frame).R;
+      const Matrix3 R = rotation.evaluate(values);
+      Matrix6X J;
+      geometricJacobian(chain, q, J);
+      const Vector6 twist = J * rates;
+      const double power = (R * wrench.head<3>()).dot(twist.head<3>()) + (R * wrench.tail<3>()).dot(twist.tail<3>());
+      EXPECT_NEAR(work, power, 1e-12);
+      EXPECT_GT(std::abs(work + power), 1e-6) << "the sign is not compared";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace screwline
