@@ -171,7 +171,9 @@ TEST(TaskRows, PowerIsTheSameInJointsAndAtTheTool) {
     const WrenchSolution back = wrenchOf(chain, q, effortOf(chain, q, wrench), kPointing);
     EXPECT_LE((back.wrench - wrench).norm(), 1e-12 / least) << "seed " << seed;
     const VelocitySolution velocity = solveVelocity(chain, q, tipTwist(chain, q, rates), kPointing);
-    if (velocity.damping == 0.0) EXPECT_LE((velocity.velocity - rates).norm(), 1e-12 / least) << "seed " << seed;
+    if (velocity.damping == 0.0) {
+      EXPECT_LE((velocity.velocity - rates).norm(), 1e-12 / least) << "seed " << seed;
+    }
   }
 }
 
