@@ -190,7 +190,9 @@ TEST(IkPointing, RandomChainsOfAnyStructureAreAnsweredHonestly) {
     const IkResult result = ik.solve(request);
     complete += result.complete ? 1 : 0;
     found += isAmong(chain, result, q, 1e-6) ? 1 : 0;
-    if (result.complete) EXPECT_TRUE(isAmong(chain, result, q, 1e-6)) << "seed " << seed << ", " << ik.method();
+    if (result.complete) {
+      EXPECT_TRUE(isAmong(chain, result, q, 1e-6)) << "seed " << seed << ", " << ik.method();
+    }
   }
   std::printf("random chains, seeds 1..120: %d of five joints and regular, %d complete, %d found again\n", regular,
               complete, found);
@@ -302,7 +304,9 @@ TEST(IkPointing, SixJointsWithTheLastFree) {
       request.target.R = request.target.R * rotationAbout(Vector3::UnitZ(), random.uniform(-3.0, 3.0));
       const IkResult result = ik.solve(request);
       EXPECT_EQ(result.complete, all.complete) << name;
-      if (result.complete) EXPECT_EQ(result.solutions.size(), all.solutions.size()) << name;
+      if (result.complete) {
+        EXPECT_EQ(result.solutions.size(), all.solutions.size()) << name;
+      }
       for (const IkAnswer& answer : result.solutions) {
         EXPECT_LE(errorOf(chain, 2, request.target, answer.position), 1e-9);
         EXPECT_FALSE(answer.singular);
