@@ -76,7 +76,7 @@ class Pointing(unittest.TestCase):
 
     def test_out_of_the_arms_plane(self):
         upright = self.tip(Q[:4] + [0.0])
-        self.ask('compute_ik', pose=turned(upright, 1, 0.2), task=Z_AXIS, ignore_limits=True)
+        self.ask('compute_ik', pose=turned(upright, 1, 0.1), task=Z_AXIS, ignore_limits=True)
         answer = self.server.compute_ik(pose=turned(upright, 0, 0.2), task=Z_AXIS, ignore_limits=True)
         self.assertEqual(answer.error_code, ErrorCode.NO_IK_SOLUTION)
         self.assertIn('unreachable', answer.message)

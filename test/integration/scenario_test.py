@@ -118,7 +118,8 @@ class ScenarioRun(unittest.TestCase):
             names = ['screwline/tool'] + ['screwline/dh_%d' % (i + 1) for i in range(len(bag.messages['/joint_states'][0].name))]
             for name in names:
                 stamps = {transform.header.stamp.to_nsec() for transform in bag.frames[name]}
-                self.assertEqual(len(set(states[5:-5]) - stamps), 0, '%s %s' % (path, name))
+                missing = [i for i, stamp in enumerate(states) if stamp not in stamps and 5 <= i < len(states) - 5]
+                self.assertEqual(missing, [], '%s %s, samples of %d' % (path, name, len(states)))
             self.assertIn('tool0', bag.frames)
             self.assertIn('screwline/dh_0', bag.frames)
             self.assertIn('screwline/target', bag.frames)
