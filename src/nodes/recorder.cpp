@@ -17,6 +17,7 @@ using namespace screwline::ros_bridge;
 
 constexpr std::uint32_t kUnbounded = 0;  // Queue: a busy machine delays messages, it drops none.
 constexpr double kPollPeriod = 0.05;     // s, in which a signal is seen.
+constexpr double kLastMessages = 0.06;   // s for what follows from a topic's last messages to come.
 
 volatile std::sig_atomic_t stop_requested = 0;
 
@@ -42,6 +43,15 @@ std::vector<ros::Subscriber> listen(ros::NodeHandle& node, const std::vector<std
   return subscribers;
 }
 
+/// So that what follows from another topic's messages has no gap at the end either.
+void endInReverse(std::vector<ros::Subscriber>& subscribers, ros::CallbackQueue& queue) {
+  while (!subscribers.empty()) {
+    subscribers.pop_back();
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kLastMessages);
+    while (ros::WallTime::now() < end) queue.callAvailable(end - ros::WallTime::now());
+  }
+}
+
 void record(const std::string& path, const std::vector<std::string>& names) {
   // roscpp's own handler would drop what waits in the queue; it has none for SIGTERM.
   std::signal(SIGINT, requestStop);
@@ -54,7 +64,7 @@ void record(const std::string& path, const std::vector<std::string>& names) {
   ros::CallbackQueue& queue = *ros::getGlobalCallbackQueue();
   while (ros::ok() && stop_requested == 0 && !recorder.failed()) queue.callAvailable(ros::WallDuration(kPollPeriod));
   queue.callAvailable();  // What had come before the signal.
-  subscribers.clear();
+  endInReverse(subscribers, queue);
   const std::uint64_t count = recorder.close();
   ROS_INFO_STREAM("closed " << path << ": " << count << " messages");
 }
