@@ -13,6 +13,7 @@ from .description import package_path
 
 STOP_SECONDS = 10
 START_SECONDS = 60
+BROADCASTER_TOPICS = 3  # joint_states, joint_trajectory, target
 
 
 class NotRunnable(Exception):
@@ -110,6 +111,12 @@ class Session:
     def wait_for_services(self):
         wanted = ['/kinematics_server/describe'] + ['/trajectory_generator/plan'] * ('trajectory_generator' in self.nodes)
         wait_until(lambda: all(self.serves(name) for name in wanted), [self.process], ' and '.join(wanted))
+        # A node that is interrupted while it starts may leave its name with the master.
+        wait_until(self.listens, [self.process], 'frame_broadcaster')
+
+    def listens(self):
+        """Whether the frame_broadcaster hears all its topics."""
+        return sum('/frame_broadcaster' in nodes for _, nodes in self.master.getSystemState()[1]) >= BROADCASTER_TOPICS
 
     def serves(self, name):
         try:
