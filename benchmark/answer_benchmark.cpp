@@ -4,9 +4,9 @@
 #include <ros/serialization.h>
 
 #include <fstream>
-#include <kdl/chainfksolverpos_recursive.hpp>
 #include <sstream>
 
+#include "kdl_unit.h"
 #include "robots.h"
 #include "screwline/ros/kinematics_server.h"
 #include "screwline/ros/service_adapter.h"
@@ -72,19 +72,7 @@ void ik(benchmark::State& state, const std::string& name) {
   answer(state, server, request, &KinematicsServer::computeIk);
 }
 
-void kdl(benchmark::State& state) {
-  Robot robot("rrprrr");
-  KDL::ChainFkSolverPos_recursive solver(robot.kdl);
-  KDL::JntArray q(6);
-  KDL::Frame frame;
-  for (auto _ : state) {
-    q.data = robot.next();
-    solver.JntToCart(q, frame);
-    benchmark::DoNotOptimize(frame);
-  }
-}
-
-BENCHMARK(kdl);
+BENCHMARK_CAPTURE(forwardKdl, rrprrr, "rrprrr");
 BENCHMARK_CAPTURE(fk, rrprrr, "rrprrr");
 BENCHMARK_CAPTURE(jacobian, rrprrr, "rrprrr");
 BENCHMARK_CAPTURE(ik, rrprrr, "rrprrr");

@@ -7,6 +7,7 @@
 #include <kdl/chainiksolvervel_pinv.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
+#include "kdl_unit.h"
 #include "robots.h"
 #include "screwline/ik/closed_form/plan.h"
 #include "screwline/ik/inverse_kinematics.h"
@@ -19,18 +20,6 @@ namespace {
 void forward(benchmark::State& state, const std::string& name) {
   Robot robot(name);
   for (auto _ : state) benchmark::DoNotOptimize(forwardKinematics(robot.chain, robot.next()));
-}
-
-void forwardKdl(benchmark::State& state, const std::string& name) {
-  Robot robot(name);
-  KDL::ChainFkSolverPos_recursive solver(robot.kdl);
-  KDL::JntArray q(static_cast<unsigned>(robot.chain.size()));
-  KDL::Frame frame;
-  for (auto _ : state) {
-    q.data = robot.next();
-    solver.JntToCart(q, frame);
-    benchmark::DoNotOptimize(frame);
-  }
 }
 
 void forwardAndJacobian(benchmark::State& state, const std::string& name) {

@@ -1,8 +1,7 @@
 // Self-motions of chains of seven joints, KDL's forward kinematics of six joints beside them as the unit.
 #include <benchmark/benchmark.h>
 
-#include <kdl/chainfksolverpos_recursive.hpp>
-
+#include "kdl_unit.h"
 #include "redundant_arms.h"
 #include "robots.h"
 #include "screwline/ik/redundant/self_motion_solver.h"
@@ -11,18 +10,6 @@
 namespace screwline {
 namespace benchmark_support {
 namespace {
-
-void forwardKdl(benchmark::State& state) {
-  Robot robot("rrprrr");
-  KDL::ChainFkSolverPos_recursive solver(robot.kdl);
-  KDL::JntArray q(6);
-  KDL::Frame frame;
-  for (auto _ : state) {
-    q.data = robot.next();
-    solver.JntToCart(q, frame);
-    benchmark::DoNotOptimize(frame);
-  }
-}
 
 /// A chain with its solver, and poses that it reaches within limits.
 struct Case {
@@ -91,7 +78,7 @@ void answerAll(benchmark::State& state, const SerialChain& chain) {
 }
 
 void registerAll() {
-  benchmark::RegisterBenchmark("forward_kdl/rrprrr", forwardKdl);
+  benchmark::RegisterBenchmark("forward_kdl/rrprrr", forwardKdl, "rrprrr");
   const std::vector<std::pair<std::string, SerialChain>> arms = {{"iiwa14", test::iiwa14()}, {"panda", test::panda()}};
   for (const auto& arm : arms) {
     const SerialChain& chain = arm.second;

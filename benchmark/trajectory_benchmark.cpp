@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <kdl/chainfksolverpos_recursive.hpp>
 #include <memory>
 #include <random>
 #include <vector>
 
+#include "kdl_unit.h"
 #include "robots.h"
 #include "screwline/trajectory/plan.h"
 #include "screwline/trajectory/state_to_state.h"
@@ -90,20 +90,8 @@ void stateToState(benchmark::State& state) {
   state.counters["p99_ns"] = least[kCount * 99 / 100];
 }
 
-void forwardKdl(benchmark::State& state) {
-  Robot robot("rrprrr");
-  KDL::ChainFkSolverPos_recursive solver(robot.kdl);
-  KDL::JntArray q(kJoints);
-  KDL::Frame frame;
-  for (auto _ : state) {
-    q.data = robot.next();
-    solver.JntToCart(q, frame);
-    benchmark::DoNotOptimize(frame);
-  }
-}
-
 void registerAll() {
-  benchmark::RegisterBenchmark("forward_kdl/rrprrr", forwardKdl);
+  benchmark::RegisterBenchmark("forward_kdl/rrprrr", forwardKdl, "rrprrr");
   benchmark::RegisterBenchmark("state_to_state/7_joints", stateToState);
   for (const char* profile : {"polynomial_345", "cycloidal", "double_s", "time_optimal"}) {
     benchmark::RegisterBenchmark((std::string("sample/") + profile).c_str(), sample, std::string(profile), 2);

@@ -3,9 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "screwline/ik/algebraic/algebraic_solver.h"
 #include "screwline/spatial/rotation.h"
 
 namespace screwline {
+
+Candidate unnamed(const VectorX& q) {
+  Candidate candidate;
+  candidate.q = q;
+  return candidate;
+}
+
+std::vector<Candidate> rootsOf(const AlgebraicSolver& solver, const Pose& target, bool& complete) {
+  AlgebraicSolutions roots;
+  solver.solve(target, roots);
+  complete = roots.complete;
+  std::vector<Candidate> candidates;
+  for (const std::array<double, 6>& q : roots) candidates.push_back(unnamed(Eigen::Map<const VectorX>(q.data(), 6)));
+  return candidates;
+}
 
 VectorX nearestTurns(const SerialChain& chain, VectorX q, const VectorX& reference) {
   for (int i = 0; i < chain.size(); ++i) {

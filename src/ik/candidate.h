@@ -10,6 +10,8 @@
 
 namespace screwline {
 
+class AlgebraicSolver;
+
 /// Solutions closer than this in every joint are one.
 constexpr double kSameSolution = 1e-6;
 /// Errors, by forward kinematics, that a solution may have: m and rad.
@@ -36,6 +38,11 @@ struct Candidate {
   /// Given where the solver knows the continuum better than by members: describes it itself.
   std::function<Continuum(const VectorX& seed, bool ignore_limits)> describe;
 };
+
+/// A candidate that has no branch and is not known to be of a continuum.
+Candidate unnamed(const VectorX& q);
+/// Every root of an elimination, unnamed; false in `complete` where some may be missing.
+std::vector<Candidate> rootsOf(const AlgebraicSolver& solver, const Pose& target, bool& complete);
 
 /// q with revolute values brought next to `reference` by full turns.
 VectorX nearestTurns(const SerialChain& chain, VectorX q, const VectorX& reference);

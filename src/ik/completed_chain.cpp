@@ -85,13 +85,7 @@ void append(ChainDescription& description, const Axis& axis, const std::string& 
 }
 
 CompletedChain completed(const SerialChain& chain, const std::vector<Axis>& locked, const std::optional<Axis>& turn) {
-  ChainDescription description;
-  description.name = chain.name();
-  description.base_link = chain.baseLink();
-  description.tip_link = chain.tipLink();
-  description.joints = chain.joints();
-  description.axes = chain.axes();
-  description.home = chain.home();
+  ChainDescription description = chain.description();
   for (std::size_t i = 0; i < locked.size(); ++i)
     append(description, locked[i], "a locked joint " + std::to_string(i + 1));
   if (turn) append(description, *turn, "the tool's turn");

@@ -98,24 +98,15 @@ const std::vector<BranchPart>* CompletedMethod::branchParts() const {
 std::vector<Candidate> CompletedMethod::wholeCandidates(const Pose& target, const VectorX& seed, bool doubted,
                                                         bool& complete) const {
   if (plan_) {
-    std::vector<Candidate> found = candidatesOf(*plan_, completed_.chain, target, seed);
     complete = true;
-    return found;
+    return candidatesOf(*plan_, completed_.chain, target, seed);
   }
   if (parallel_) {
     ParallelCandidates found = candidatesOf(*parallel_, completed_.chain, target, seed, doubted);
     complete = found.complete;
     return std::move(found.found);
   }
-  AlgebraicSolutions roots;
-  algebraic_->solve(target, roots);
-  complete = roots.complete;
-  std::vector<Candidate> found;
-  for (const std::array<double, 6>& q : roots) {
-    found.emplace_back();
-    found.back().q = Eigen::Map<const VectorX>(q.data(), 6);
-  }
-  return found;
+  return rootsOf(*algebraic_, target, complete);
 }
 
 bool CompletedMethod::isLocked(const VectorX& q) const {
@@ -161,8 +152,7 @@ void CompletedMethod::openSheet(const Pose& target, std::size_t dimension, Candi
 }
 
 Candidate CompletedMethod::candidateAt(const VectorX& q) const {
-  Candidate candidate;
-  candidate.q = q;
+  Candidate candidate = unnamed(q);
   if (!completed_.turnsByItself()) return candidate;
   candidate.free = {completed_.turn};
   candidate.describe = [this, q](const VectorX& seed, bool ignore_limits) { return circle(q, seed, ignore_limits); };

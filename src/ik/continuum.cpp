@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "screwline/spatial/golden_section.h"
 #include "turns.h"
 
 namespace screwline {
@@ -15,6 +16,7 @@ constexpr double kLimitBand = 1e-9;
 constexpr int kMaxNearestIterations = 30;
 constexpr int kMaxTurnings = 3;
 constexpr int kCoarse = 24;           // Members all the way round that the nearest is looked for from.
+constexpr int kGoldenSteps = 38;      // From a step to 1e-9 of it and less.
 constexpr double kStationary = 1e-6;  // Of the distance, along the continuum.
 
 double stepOf(const SerialChain& chain, int joint) {
@@ -99,33 +101,14 @@ VectorX nearestMember(const SerialChain& chain, const Family& family, const Vect
 /// from the seed and where a continuum is bent.
 VectorX goldenNearest(const SerialChain& chain, const Family& family, double step, const VectorX& q,
                       const VectorX& seed) {
-  constexpr double kGolden = 0.61803398874989485;
   const double center = family.parameters(q)[0];
   VectorX member;
   const auto distanceAt = [&](double value) {
     return family.at(VectorX::Constant(1, value), q, member) ? distanceTo(chain, member, seed)
                                                              : std::numeric_limits<double>::infinity();
   };
-  double low = center - step;
-  double high = center + step;
-  double a = high - kGolden * (high - low);
-  double b = low + kGolden * (high - low);
-  double at_a = distanceAt(a);
-  double at_b = distanceAt(b);
-  while (high - low > 1e-9) {
-    if (at_a <= at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      at_a = distanceAt(a = high - kGolden * (high - low));
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      at_b = distanceAt(b = low + kGolden * (high - low));
-    }
-  }
-  const bool found = family.at(VectorX::Constant(1, 0.5 * (low + high)), q, member);
+  const double nearest = goldenMinimum(distanceAt, center - step, center + step, kGoldenSteps);
+  const bool found = family.at(VectorX::Constant(1, nearest), q, member);
   return found && distanceTo(chain, member, seed) < distanceTo(chain, q, seed) ? member : q;
 }
 

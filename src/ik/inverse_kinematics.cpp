@@ -32,13 +32,6 @@ bool isNearer(const IkAnswer& a, const IkAnswer& b) {
                                       b.position.data() + b.position.size());
 }
 
-/// A candidate that has no branch and is not known to be of a continuum.
-Candidate searched(const VectorX& q) {
-  Candidate candidate;
-  candidate.q = q;
-  return candidate;
-}
-
 }  // namespace
 
 struct InverseKinematics::Implementation {
@@ -127,10 +120,7 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
     return result.complete ? found : withSearched(request, builder, std::move(found), result);
   }
   if (algebraic) {
-    AlgebraicSolutions roots;
-    algebraic->solve(request.target, roots);
-    for (const std::array<double, 6>& q : roots) found.push_back(searched(Eigen::Map<const VectorX>(q.data(), 6)));
-    result.complete = roots.complete;
+    found = rootsOf(*algebraic, request.target, result.complete);
     if (result.complete) return found;  // Else the search may add to them.
   }
   return withSearched(request, builder, std::move(found), result);
@@ -148,7 +138,7 @@ std::vector<Candidate> InverseKinematics::Implementation::withSearched(const IkR
   const SearchResult search_result = search(chain, task, request.target, {builder.seed()}, options);
   result.timed_out = search_result.timed_out;
   for (const VectorX& q : search_result.solutions) {
-    found.push_back(completed ? completed->candidateAt(q) : searched(q));
+    found.push_back(completed ? completed->candidateAt(q) : unnamed(q));
   }
   return found;
 }
@@ -186,7 +176,7 @@ bool InverseKinematics::Implementation::addMates(const IkAnswer& solution, const
   const auto isOther = [&](const VectorX& q) { return !isSameConfiguration(chain, q, solution.position); };
   for (const VectorX& q : near) {
     if (!isOther(q)) continue;
-    Candidate candidate = searched(q);
+    Candidate candidate = unnamed(q);
     candidate.branch = solution.branch;
     if (std::optional<IkAnswer> built = builder.build(std::move(candidate))) mates.push_back(std::move(*built));
   }
@@ -247,7 +237,7 @@ void InverseKinematics::Implementation::doubtUnreachable(const IkRequest& reques
   options.descent.honour_limits = false;
   for (const VectorX& q : search(chain, task, request.target, {builder.seed()}, options).solutions) {
     result.complete = false;
-    if (std::optional<IkAnswer> solution = builder.build(searched(q))) {
+    if (std::optional<IkAnswer> solution = builder.build(unnamed(q))) {
       admit(request, std::move(*solution), builder, result);
     }
   }
@@ -335,6 +325,12 @@ std::vector<std::string> InverseKinematics::branches() const {
   if (self.completed && self.completed->branchParts() != nullptr) return branchNamesOf(*self.completed->branchParts());
   const bool named = self.redundant && self.redundant->closedForm();
   return named ? branchNamesOf(self.redundant->closedForm()->plan().branchParts()) : std::vector<std::string>();
+}
+
+std::optional<InverseOutline> InverseKinematics::outline() const {
+  const Implementation& self = *implementation_;
+  if (self.plan && self.plan->task.size() == self.task.size()) return self.plan->plan.outline();
+  return self.parallel ? std::optional<InverseOutline>(self.parallel->plan.outline()) : std::nullopt;
 }
 
 /// Candidates into the list; false where there was none.

@@ -1,5 +1,7 @@
 #include "screwline/ik/method_summary.h"
 
+#include <utility>
+
 #include "screwline/model/structure.h"
 
 namespace screwline {
@@ -10,6 +12,23 @@ std::vector<std::string> summaryOf(const InverseKinematics& ik) {
   lines.push_back(ik.complete() ? "it finds every solution" : "it does not prove that it finds every solution");
   for (const std::string& branch : ik.branches()) lines.push_back("branch: " + branch);
   return lines;
+}
+
+InverseSolver everySolution(const InverseKinematics& ik) {
+  return [&ik](const Pose& target) {
+    IkRequest request;
+    request.target = target;
+    request.ignore_limits = true;
+    request.find_closest = false;
+    std::vector<VectorX> all;
+    for (const IkAnswer& answer : ik.solve(request).solutions) all.push_back(answer.position);
+    return all;
+  };
+}
+
+InverseMethod inverseMethodOf(std::shared_ptr<const InverseKinematics> ik) {
+  const InverseSolver solver = everySolution(*ik);
+  return {summaryOf(*ik), ik->outline(), [ik = std::move(ik), solver](const Pose& target) { return solver(target); }};
 }
 
 }  // namespace screwline

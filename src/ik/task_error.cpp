@@ -20,7 +20,7 @@ TaskError taskError(const Task& task, const Pose& target, const Pose& actual) {
     if (row < Task::kFirstToolRow) {
       error.twist[row] = difference[row];
     } else {
-      const Vector3 axis = actual.R.col(row - Task::kFirstToolRow);
+      const Vector3 axis = task.axisOf(i, actual.R);
       error.twist.tail<3>() += axis.dot(difference.tail<3>()) * axis;
     }
   }

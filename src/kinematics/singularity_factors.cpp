@@ -56,14 +56,7 @@ double TaskDeterminant::operator()(const ConstVectorRef& q) const {
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, kMaxJoints>;
   const Matrix3 R_BT = geometricJacobian(chain_, q, J_).R;
   Small A(task_.size(), chain_.size());
-  for (int i = 0; i < task_.size(); ++i) {
-    const int row = task_.row(i);
-    if (row < Task::kFirstToolRow) {
-      A.row(i) = J_.row(row);
-    } else {
-      A.row(i).noalias() = R_BT.col(row - Task::kFirstToolRow).transpose() * J_.bottomRows<3>();
-    }
-  }
+  task_.selectInto(J_, R_BT, A);
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
   if (isSquare()) return Square(A).determinant();
   if (A.rows() < A.cols()) return Square(A * A.transpose()).determinant();

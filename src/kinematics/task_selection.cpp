@@ -78,8 +78,7 @@ Task deriveTask(const SerialChain& chain) {
   }
   // Two of rx ry rz are no orientation: five joints have the direction of an axis of the tool, z rather than others.
   for (int axis : {2, 0, 1}) {
-    const Task task =
-        Task::fromRows({0, 1, 2, Task::kFirstToolRow + (axis == 0 ? 1 : 0), Task::kFirstToolRow + (axis == 2 ? 1 : 2)});
+    const Task task = Task::pointing(axis);
     if (chain.size() == 5 && isMostlyRegular(samples, task)) return task;
   }
   for (int size = chain.size(); size > 1; --size) {

@@ -159,6 +159,12 @@ VectorX SerialChain::clamped(const VectorX& q) const {
   return q.cwiseMax(lower()).cwiseMin(upper());
 }
 
+ChainDescription SerialChain::description() const {
+  ChainDescription description = description_;
+  description.dh.reset();
+  return description;
+}
+
 SerialChain SerialChain::withTip(const Link& link) const {
   ChainDescription description = description_;
   require(link.axis_count == static_cast<int>(axes().size()),

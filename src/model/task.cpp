@@ -30,6 +30,14 @@ Task Task::fromRows(const std::vector<int>& rows) {
   return task;
 }
 
+Task Task::pointing(int axis) {
+  std::vector<int> rows = {0, 1, 2};
+  for (int other = 0; other < 3; ++other) {
+    if (other != axis) rows.push_back(kFirstToolRow + other);
+  }
+  return fromRows(rows);
+}
+
 Task Task::parse(const std::vector<std::string>& names) {
   if (names.empty()) refuse(std::string("task has no row") + kKnownRows);
   std::vector<int> rows;
@@ -82,13 +90,7 @@ int Task::pointingAxis() const {
 
 MatrixX Task::select(const Matrix6X& J, const Matrix3& R) const {
   MatrixX selected(size_, J.cols());
-  for (int i = 0; i < size_; ++i) {
-    if (row(i) < kFirstToolRow) {
-      selected.row(i) = J.row(row(i));
-    } else {
-      selected.row(i).noalias() = R.col(row(i) - kFirstToolRow).transpose() * J.bottomRows<3>();
-    }
-  }
+  selectInto(J, R, selected);
   return selected;
 }
 

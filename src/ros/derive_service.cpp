@@ -1,11 +1,8 @@
 #include <ros/init.h>
 
-#include <algorithm>
 #include <memory>
-#include <optional>
 #include <utility>
 
-#include "screwline/ik/inverse_outline_of.h"
 #include "screwline/ik/method_summary.h"
 #include "screwline/ros/checks.h"
 #include "screwline/ros/kinematics_server.h"
@@ -21,17 +18,11 @@ Outcome KinematicsServer::derive(const Derive::Request& request, Derive::Respons
   DerivationOptions options;
   options.quantities = request.quantities;
   options.format = documentFormatOf(request.format.empty() ? "markdown" : request.format);
-  const auto& asked = request.quantities;
-  const bool inverse = asked.empty() || std::find(asked.begin(), asked.end(), "ik") != asked.end();
-  // Of the chain that the document describes: the robot's own, or with its rounded right angles put in.
-  const std::optional<SquaredChain> squared = inverse ? withRightAngles(chain, options.right_angles) : std::nullopt;
-  const auto solver = squared ? std::make_shared<const InverseKinematics>(squared->chain, robot_.task)
-                              : solverFor(linkOrTip("", "tip_link"), robot_.task);
-  if (inverse) {
-    options.inverse = summaryOf(*solver);
-    options.inverse_outline = inverseOutlineOf(solver->chain(), robot_.task);
-    options.inverse_solver = everySolution(*solver);
-  }
+  options.inverse = [&](const SerialChain& described) {
+    const bool is_own = &described == &chain;  // Else with its rounded right angles put in.
+    return inverseMethodOf(is_own ? solverFor(linkOrTip("", "tip_link"), robot_.task)
+                                  : std::make_shared<const InverseKinematics>(described, robot_.task));
+  };
   options.progress.time_limit = params_.derive_timeout;
   options.progress.cancelled = [] { return ros::isShuttingDown(); };
   response.joint_names = chain.jointNames();

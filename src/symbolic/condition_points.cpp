@@ -107,8 +107,8 @@ std::vector<VectorX> commonZeros(const SerialChain& chain, const std::vector<con
 
 int rankAt(const SerialChain& chain, const Task& task, const VectorX& q) {
   Matrix6X J;
-  geometricJacobian(chain, q, J);
-  const VectorX values = singularValues(taskJacobian(task, J));
+  const Matrix3 R_BT = geometricJacobian(chain, q, J).R;
+  const VectorX values = singularValues(taskJacobian(task, J, R_BT));
   const double least = std::max(kRank * values[0], jacobianNoise(J));
   return static_cast<int>((values.array() > least).count());
 }

@@ -292,23 +292,19 @@ class Deriver {
   SectionDraft draft() { return {chain_, task_, symbolic_, document_, check_}; }
 
   void writeInverse() {
-    if (options_.inverse.empty()) return;
+    if (!options_.inverse) return;
+    watch_.begin("inverse kinematics");
+    const InverseMethod method = options_.inverse(chain_);
     document_.heading(2, "Inverse kinematics");
     std::vector<std::string> lines;
-    for (const std::string& line : options_.inverse) lines.push_back(document_.text(line));
+    for (const std::string& line : method.summary) lines.push_back(document_.text(line));
     document_.list(lines);
-    writeInverseFormulas();
-  }
-
-  void writeInverseFormulas() {
-    watch_.begin("inverse kinematics");
     const InverseDerivation inverse =
-        deriveInverse(chain_, task_, options_.inverse_outline, options_.inverse_solver, options_.check_configurations,
-                      options_.symbolic, options_.progress);
+        deriveInverse(chain_, task_, method, options_.check_configurations, options_.symbolic, options_.progress);
     result_.no_inverse = inverse.reason;
     if (!inverse.formulas) return document_.paragraph(document_.text(inverse.reason + "."));
     document_.paragraph(inverseSection(*inverse.formulas, options_.format));
-    if (options_.inverse_solver) document_.paragraph(document_.text(sentenceOf(inverse.check)));
+    if (method.solver) document_.paragraph(document_.text(sentenceOf(inverse.check)));
   }
 
   void writeCheck() {

@@ -20,6 +20,15 @@ constexpr double kBeyond = 1e-12;  ///< The same below zero.
 constexpr double kFree = 1e-12;    ///< Of the chain's length: what is this near to zero leaves a joint free.
 constexpr double kClear = 1e-3;    ///< Smallest over largest singular value of poses at which solutions are compared.
 
+double difference(const InverseFormulas& formulas, const VectorX& a, const VectorX& b) {
+  double worst = 0.0;
+  for (int i = 0; i < formulas.joints; ++i) {
+    const double d = a[i] - b[i];
+    worst = std::max(worst, std::abs(formulas.revolute[static_cast<std::size_t>(i)] ? wrapAngle(d) : d));
+  }
+  return worst;
+}
+
 /// Works off the lines, one branch at a time.
 class Branches {
  public:
@@ -84,17 +93,6 @@ class Branches {
     if (!known) found_.push_back(solution);
   }
 
- public:
-  static double difference(const InverseFormulas& formulas, const VectorX& a, const VectorX& b) {
-    double worst = 0.0;
-    for (int i = 0; i < formulas.joints; ++i) {
-      const double d = a[i] - b[i];
-      worst = std::max(worst, std::abs(formulas.revolute[static_cast<std::size_t>(i)] ? wrapAngle(d) : d));
-    }
-    return worst;
-  }
-
- private:
   const InverseFormulas& formulas_;
   const VectorX& preferred_;
   std::vector<double> values_;
@@ -142,8 +140,7 @@ InverseCheck checkInverse(const InverseFormulas& formulas, const SerialChain& ch
     check.solutions += static_cast<int>(expected.size());
     for (const VectorX& solution : expected) {
       double nearest = std::numeric_limits<double>::infinity();
-      for (const InverseSolution& other : found)
-        nearest = std::min(nearest, Branches::difference(formulas, solution, other.q));
+      for (const InverseSolution& other : found) nearest = std::min(nearest, difference(formulas, solution, other.q));
       if (nearest > kSame) {
         ++check.missing;
       } else {
@@ -152,7 +149,7 @@ InverseCheck checkInverse(const InverseFormulas& formulas, const SerialChain& ch
     }
     for (const InverseSolution& solution : found) {
       const bool known = std::any_of(expected.begin(), expected.end(), [&](const VectorX& other) {
-        return Branches::difference(formulas, solution.q, other) <= kSame;
+        return difference(formulas, solution.q, other) <= kSame;
       });
       if (!known) ++check.extra;
       check.worst_task = std::max(check.worst_task, taskDeviation(chain, task, target, solution.q));

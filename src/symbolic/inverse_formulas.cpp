@@ -109,18 +109,17 @@ std::optional<InverseFormulas> inverseFormulasOf(const SerialChain& chain, const
   return builder.finished();
 }
 
-InverseDerivation deriveInverse(const SerialChain& chain, const Task& task,
-                                const std::optional<InverseOutline>& outline, const InverseSolver& solver, int poses,
+InverseDerivation deriveInverse(const SerialChain& chain, const Task& task, const InverseMethod& method, int poses,
                                 const SymbolicOptions& options, const Progress& progress) {
   InverseDerivation derivation;
-  if (!outline) {
+  if (!method.outline) {
     derivation.reason = "no formulas: the solver has no closed form for this geometry and task";
     return derivation;
   }
   Progress limited = progress;
   limited.time_limit = std::min(progress.time_limit, kMostSeconds);
   try {
-    derivation.formulas = inverseFormulasOf(chain, task, *outline, options, limited);
+    derivation.formulas = inverseFormulasOf(chain, task, *method.outline, options, limited);
   } catch (const DerivationStopped& stopped) {
     if (progress.cancelled && progress.cancelled()) throw;
     derivation.reason = std::string("no formulas: they grow too long to be read (") + stopped.what() + ")";
@@ -130,8 +129,8 @@ InverseDerivation deriveInverse(const SerialChain& chain, const Task& task,
     derivation.reason = "no formulas: a step of the solver's closed form takes more than a square root";
     return derivation;
   }
-  if (!solver) return derivation;
-  derivation.check = checkInverse(*derivation.formulas, chain, task, solver, poses);
+  if (!method.solver) return derivation;
+  derivation.check = checkInverse(*derivation.formulas, chain, task, method.solver, poses);
   if (derivation.check.agrees() && derivation.check.worst_task <= kInverseAgreement) return derivation;
   derivation.formulas.reset();
   derivation.reason = "no formulas: those of the ideal geometry do not hold for this chain's numbers";

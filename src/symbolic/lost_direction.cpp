@@ -19,7 +19,7 @@ namespace {
 constexpr int kStarts = 6;
 constexpr std::size_t kLongest = 240;    ///< Characters of a direction that is still worth reading.
 constexpr std::size_t kMaxChoices = 40;  ///< Of columns that are looked at.
-constexpr std::size_t kMostTerms = 16;   ///< Of a direction; beyond them it is not worth factoring.
+constexpr std::size_t kMostTerms = 20;   ///< Of a direction; beyond them it is not worth factoring.
 
 using Entries = std::vector<TrigPolynomial>;
 
@@ -78,7 +78,8 @@ class LossFinder {
     const std::vector<VectorX> all = commonZeros(chain_, {&condition.numeric}, kStarts);
     ConditionLoss loss;
     loss.ranks = ranksAt(chain_, task_, all);
-    if (loss.ranks.empty()) return loss;
+    // Wrenches of rows about the tool's axes are not written.
+    if (loss.ranks.empty() || task_.usesToolAxes()) return loss;
     const int rank = loss.ranks.back();
     points_.clear();
     for (const VectorX& q : all) {

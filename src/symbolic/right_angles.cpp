@@ -42,14 +42,7 @@ void merge(std::vector<double*>& coordinates, double tolerance) {
 }  // namespace
 
 std::optional<SquaredChain> withRightAngles(const SerialChain& chain, double tolerance) {
-  ChainDescription description;
-  description.name = chain.name();
-  description.base_link = chain.baseLink();
-  description.tip_link = chain.tipLink();
-  description.joints = chain.joints();
-  description.axes = chain.axes();
-  description.home = chain.home();
-  description.links = chain.links();
+  ChainDescription description = chain.description();
   double turn = 0.0;
   for (Axis& axis : description.axes) {
     const Vector3 direction = squared(axis.direction, tolerance);

@@ -38,14 +38,8 @@ class SingularitySection {
       return conditions;
     }
     std::vector<std::string> items;
-    if (draft_.task.usesToolAxes()) {
-      for (const ConditionFormula& condition : conditions) items.push_back(item(condition));
-      document_.list(items);
-      document_.paragraph(document_.text("Lost directions are derived for rows along the base's axes only."));
-      return conditions;
-    }
     const std::vector<ConditionLoss> losses = lossesOf(draft_.symbolic, draft_.chain, draft_.task);
-    for (std::size_t i = 0; i < conditions.size(); ++i) items.push_back(item(conditions[i]) + lostAt(losses[i]));
+    for (std::size_t i = 0; i < conditions.size(); ++i) items.push_back(item(conditions[i], losses[i]));
     document_.list(items);
     document_.paragraph(document_.text(
         "Each lost direction was compared with the numeric Jacobian where its condition holds, to 1e-9 of it."));
@@ -54,20 +48,16 @@ class SingularitySection {
   }
 
  private:
-  std::string item(const ConditionFormula& condition) const {
+  std::string item(const ConditionFormula& condition, const ConditionLoss& loss) const {
     std::string text = document_.text(condition.name) + ": " + equationToZero(condition.left_side);
     for (const ConditionSolution& solution : condition.solutions) {
       std::string values;
       for (const Formula& value : solution.values) values += (values.empty() ? "" : " or ") + document_.formula(value);
       text += "; " + document_.formula(Formula::symbol(solution.joint)) + " = " + values;
     }
-    return text + ". " + document_.text(capitalised(condition.meaning)) + ".";
-  }
-
-  std::string lostAt(const ConditionLoss& loss) const {
-    if (loss.ranks.empty()) return document_.text(" No joint values were found where it holds.");
-    std::string text =
-        document_.text(" Rank " + choice(loss.ranks) + " of " + std::to_string(draft_.task.size()) + ".");
+    text += ". " + document_.text(capitalised(condition.meaning)) + ".";
+    if (loss.ranks.empty()) return text + document_.text(" No joint values were found where it holds.");
+    text += document_.text(" Rank " + choice(loss.ranks) + " of " + std::to_string(draft_.task.size()) + ".");
     for (std::size_t i = 0; i < loss.directions.size(); ++i)
       text += document_.text(i == 0 ? " Lost: " : ", and ") + lost(loss.directions[i]);
     return text + (loss.directions.empty() ? "" : ".");

@@ -2,13 +2,13 @@
 
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "pdf.h"
 #include "screwline/exception.h"
-#include "screwline/ik/inverse_outline_of.h"
 #include "screwline/ik/method_summary.h"
 #include "screwline/kinematics/task_selection.h"
 #include "screwline/model/urdf_reader.h"
@@ -92,9 +92,8 @@ bool parse(const std::vector<std::string>& words, Arguments& arguments) {
 
 std::string headerOf(const screwline::SerialChain& chain, const screwline::Task& task,
                      const screwline::DerivationOptions& options) {
-  const screwline::InverseDerivation inverse =
-      screwline::deriveInverse(chain, task, options.inverse_outline, options.inverse_solver,
-                               options.check_configurations, options.symbolic, options.progress);
+  const screwline::InverseDerivation inverse = screwline::deriveInverse(
+      chain, task, options.inverse(chain), options.check_configurations, options.symbolic, options.progress);
   if (!inverse.formulas) std::cerr << "derive: inverse kinematics: " << inverse.reason << std::endl;
   return screwline::cppHeaderOf(chain, inverse.formulas, options.symbolic, options.progress);
 }
@@ -108,15 +107,10 @@ void derive(Arguments& arguments) {
     std::cout << screwline::svgOf(screwline::drawingOf(chain, screwline::SymbolicChain(chain))) << std::flush;
     return;
   }
-  // A document may describe the chain with its right angles put in; a header is of the chain as it is.
-  const bool is_header = arguments.format == "cpp";
-  const auto squared = screwline::withRightAngles(chain, is_header ? 0.0 : arguments.options.right_angles);
-  const screwline::SerialChain& described = squared ? squared->chain : chain;
-  const screwline::InverseKinematics ik(described, task);
-  arguments.options.inverse = screwline::summaryOf(ik);
-  arguments.options.inverse_outline = screwline::inverseOutlineOf(described, task);
-  arguments.options.inverse_solver = screwline::everySolution(ik);
-  if (is_header) {
+  arguments.options.inverse = [&task](const screwline::SerialChain& described) {
+    return screwline::inverseMethodOf(std::make_shared<const screwline::InverseKinematics>(described, task));
+  };
+  if (arguments.format == "cpp") {  // Of the chain as it is, rounded angles too.
     std::cout << headerOf(chain, task, arguments.options) << std::flush;
     return;
   }

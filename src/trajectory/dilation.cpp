@@ -140,22 +140,11 @@ std::array<double, 2> DilationProgram::stepLengths(double target) {
   };
   for (std::size_t i = 0; i <= cells_; ++i) {
     const double* db = change_.data() + i;
-    Node& node = nodes_[i];
-    const double r = 0.5 * (at(i)[0] + at(i)[1]);
     const double by = 0.5 * (db[0] + db[1]);
-    if (by < 0.0) primal = std::min(primal, (1.0 - kLeastShare) * r / -by);
+    if (by < 0.0) primal = std::min(primal, (1.0 - kLeastShare) * 0.5 * (at(i)[0] + at(i)[1]) / -by);
     if (i < cells_ && db[1] < 0.0) primal = std::min(primal, (1.0 - kLeastShare) * at(i)[1] / -db[1]);
-    if (node.bounded && node.free) take(1.0 - r / node.ceiling, -by / node.ceiling, node.multiplier);
   }
-  eachRow([&](std::size_t i, std::size_t kind, DilationRow& each) {
-    const double* db = change_.data() + i;
-    const DilationTop top = topOf(at(i), kind);
-    const double value = valueOf(each, at(i));
-    const double by = valueOf(each, db);
-    const double by_top = top.slope * (db[top.first] + db[top.first + 1]);
-    take(top.value - value, by_top - by, each.above);
-    take(top.value + value, by_top + by, each.below);
-  });
+  eachSlack(take);
   return {std::min(1.0, kToBoundary * primal), std::min(1.0, kToBoundary * dual)};
 }
 
@@ -168,21 +157,7 @@ void DilationProgram::takeStep(double target) {
   const auto move = [&, along = dual](double slack, double by, double& multiplier) {
     multiplier += along * ((target - multiplier * by) / slack - multiplier);
   };
-  for (std::size_t i = 0; i <= cells_; ++i) {
-    Node& node = nodes_[i];
-    const double* db = change_.data() + i;
-    if (!node.bounded || !node.free) continue;
-    move(1.0 - 0.5 * (at(i)[0] + at(i)[1]) / node.ceiling, -0.5 * (db[0] + db[1]) / node.ceiling, node.multiplier);
-  }
-  eachRow([&](std::size_t i, std::size_t kind, DilationRow& each) {
-    const double* db = change_.data() + i;
-    const DilationTop top = topOf(at(i), kind);
-    const double value = valueOf(each, at(i));
-    const double by = valueOf(each, db);
-    const double by_top = top.slope * (db[top.first] + db[top.first + 1]);
-    move(top.value - value, by_top - by, each.above);
-    move(top.value + value, by_top + by, each.below);
-  });
+  eachSlack(move);
   const double along = untilMet(primal);
   for (std::size_t k = 0; k < points_.size(); ++k) points_[k] += along * change_[k];
   meetEnds();

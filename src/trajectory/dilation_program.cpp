@@ -79,33 +79,16 @@ DilationTop DilationProgram::topOf(const double* b, std::size_t kind) const {
 }
 
 void DilationProgram::startMultipliers(double each_product) {
-  for (std::size_t i = 0; i <= cells_; ++i) {
-    Node& node = nodes_[i];
-    if (node.bounded) node.multiplier = each_product / (1.0 - 0.5 * (at(i)[0] + at(i)[1]) / node.ceiling);
-  }
-  eachRow([&](std::size_t i, std::size_t kind, DilationRow& each) {
-    const double top = topOf(at(i), kind).value;
-    const double value = valueOf(each, at(i));
-    each.above = each_product / (top - value);
-    each.below = each_product / (top + value);
-  });
+  eachSlack([&](double slack, double, double& multiplier) { multiplier = each_product / slack; });
 }
 
 /// The mean product of a slack and its multiplier.
 double DilationProgram::complementarity() {
   double sum = 0.0;
   double count = 0.0;
-  for (std::size_t i = 0; i <= cells_; ++i) {
-    const Node& node = nodes_[i];
-    if (!node.bounded || !node.free) continue;
-    sum += node.multiplier * (1.0 - 0.5 * (at(i)[0] + at(i)[1]) / node.ceiling);
+  eachSlack([&](double slack, double, double& multiplier) {
+    sum += multiplier * slack;
     count += 1.0;
-  }
-  eachRow([&](std::size_t i, std::size_t kind, DilationRow& each) {
-    const double top = topOf(at(i), kind).value;
-    const double value = valueOf(each, at(i));
-    sum += each.above * (top - value) + each.below * (top + value);
-    count += 2.0;
   });
   return sum / count;
 }

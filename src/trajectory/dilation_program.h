@@ -66,6 +66,9 @@ class DilationProgram {
   std::array<double, 2> stepLengths(double target);
   template <typename Visit>
   void eachRow(const Visit& visit);
+  /// visit(slack, by, multiplier): each bound's slack, and by how much the step changes it.
+  template <typename Visit>
+  void eachSlack(const Visit& visit);
   double duration() const;
 
   std::size_t joints_, cells_;
@@ -100,6 +103,25 @@ void DilationProgram::eachRow(const Visit& visit) {
       for (std::size_t j = 0; j < joints_; ++j) visit(i, kind, row(i, kind, j));
     }
   }
+}
+
+template <typename Visit>
+void DilationProgram::eachSlack(const Visit& visit) {
+  for (std::size_t i = 0; i <= cells_; ++i) {
+    Node& node = nodes_[i];
+    const double* db = change_.data() + i;
+    if (!node.bounded || !node.free) continue;
+    visit(1.0 - 0.5 * (at(i)[0] + at(i)[1]) / node.ceiling, -0.5 * (db[0] + db[1]) / node.ceiling, node.multiplier);
+  }
+  eachRow([&](std::size_t i, std::size_t kind, DilationRow& each) {
+    const double* db = change_.data() + i;
+    const DilationTop top = topOf(at(i), kind);
+    const double value = valueOf(each, at(i));
+    const double by = valueOf(each, db);
+    const double by_top = top.slope * (db[top.first] + db[top.first + 1]);
+    visit(top.value - value, by_top - by, each.above);
+    visit(top.value + value, by_top + by, each.below);
+  });
 }
 
 }  // namespace screwline

@@ -54,10 +54,10 @@ VectorX PathSystem::step() const {
 Vector6 PathSystem::rowOf(int i) const {
   const int row = task_.row(i);
   Vector6 result = Vector6::Zero();
-  if (row < Task::kFirstToolRow) {
-    result[row] = row < 3 ? 1.0 / chain_.characteristicLength() : 1.0;
+  if (row < 3) {
+    result[row] = 1.0 / chain_.characteristicLength();
   } else {
-    result.tail<3>() = R_BT_.col(row - Task::kFirstToolRow);
+    result.tail<3>() = task_.axisOf(i, R_BT_);
   }
   return result;
 }

@@ -41,6 +41,12 @@ double nearPeak(const Polynomial& p, int places) {
   return std::max(peak, sign * values[middle] - 0.5 * slope * slope / bend);
 }
 
+std::vector<double> instantsOf(const VectorX& lengths) {
+  std::vector<double> times{0.0};
+  for (Eigen::Index k = 0; k < lengths.size(); ++k) times.push_back(times.back() + lengths[k]);
+  return times;
+}
+
 /// The share of the limits that each segment uses, as the factor of time that brings it to the bound.
 class UseOfSegments {
  public:
@@ -50,8 +56,7 @@ class UseOfSegments {
   /// Of the motion with these lengths; the return value is its shortest duration.
   double measure(const VectorX& lengths, VectorX& use) {
     ++motions;
-    std::vector<double> times{0.0};
-    for (Eigen::Index k = 0; k < lengths.size(); ++k) times.push_back(times.back() + lengths[k]);
+    const std::vector<double> times = instantsOf(lengths);
     const PiecewisePolynomial motion = build_(positions_, times);
     use = VectorX::Zero(lengths.size());
     std::size_t segment = 0;
@@ -114,7 +119,7 @@ class SegmentSearch {
     const long work = static_cast<long>(positions.rows()) * lengths_.size();
     VectorX use;
     best_ = use_.measure(lengths_, use);
-    const int degree = build(positions, instants()).degree;
+    const int degree = build(positions, instantsOf(lengths_)).degree;
     most_ = std::min(kMostMotions, kMostWork / (work * (2 * degree - 5)));
   }
 
@@ -127,12 +132,6 @@ class SegmentSearch {
   }
 
  private:
-  std::vector<double> instants() const {
-    std::vector<double> times{0.0};
-    for (Eigen::Index k = 0; k < lengths_.size(); ++k) times.push_back(times.back() + lengths_[k]);
-    return times;
-  }
-
   bool exhausted() const { return use_.motions >= most_; }
 
   /// Lengths so that segment k uses targets[k] of the limits, from the given ones. Keeps the best on the way.

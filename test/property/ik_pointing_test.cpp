@@ -15,14 +15,6 @@ namespace {
 using test::ArmMaker;
 using test::jointDifference;
 
-Task pointing(int axis) {
-  std::vector<int> rows = {0, 1, 2};
-  for (int i = 0; i < 3; ++i) {
-    if (i != axis) rows.push_back(Task::kFirstToolRow + i);
-  }
-  return Task::fromRows(rows);
-}
-
 SerialChain shipped(const std::string& name) {
   return test::shippedRobot(SCREWLINE_SOURCE_DIR, name).chain;
 }
@@ -71,7 +63,7 @@ struct Tally {
 /// The laws at a regular configuration of an arm of five joints: it is found again, everything is a solution, nothing
 /// is twice, and what another method finds is there.
 void expectAllSolutions(const SerialChain& chain, int axis, const VectorX& q, bool search_too, Tally& tally) {
-  const Task task = pointing(axis);
+  const Task task = Task::pointing(axis);
   const InverseKinematics ik(chain, task);
   const Pose target = forwardKinematics(chain, q);
   const IkResult result = ik.solve(requestFor(target));
@@ -166,7 +158,7 @@ TEST(IkPointing, RandomChainsOfAnyStructureAreAnsweredHonestly) {
     RandomModel random(seed);
     const SerialChain chain = random.chain(random.integer(3, 6), random.chance(0.1));
     const int axis = random.integer(0, 2);
-    const Task task = pointing(axis);
+    const Task task = Task::pointing(axis);
     const VectorX q = configuration(chain, random);
     const InverseKinematics ik(chain, task);
     const Pose target = forwardKinematics(chain, q);
@@ -201,7 +193,7 @@ TEST(IkPointing, RandomChainsOfAnyStructureAreAnsweredHonestly) {
 /// youBot turns its tool about z: the direction of z takes four joints, the fifth is free.
 TEST(IkPointing, YoubotPointsItsToolWithItsLastJointFree) {
   const SerialChain chain = shipped("youbot_arm");
-  const InverseKinematics ik(chain, pointing(2));
+  const InverseKinematics ik(chain, Task::pointing(2));
   std::printf("youbot, z: %s\n", ik.method().c_str());
   EXPECT_TRUE(ik.complete());
   RandomModel random(31);
@@ -234,7 +226,7 @@ TEST(IkPointing, YoubotPointsItsToolWithItsLastJointFree) {
 
 TEST(IkPointing, LimitsCutTheFreeJointsRange) {
   const SerialChain chain = shipped("youbot_arm");
-  const InverseKinematics ik(chain, pointing(2));
+  const InverseKinematics ik(chain, Task::pointing(2));
   const VectorX q = (VectorX(5) << 0.3, 0.4, -0.6, 0.5, 1.0).finished();
   IkRequest request = requestFor(forwardKinematics(chain, q));
   request.ignore_limits = false;
@@ -251,7 +243,7 @@ TEST(IkPointing, YoubotTurnsItsXAxisAnywhere) {
   const SerialChain chain = shipped("youbot_arm");
   Tally tally;
   RandomModel random(32);
-  std::printf("youbot, x: %s\n", InverseKinematics(chain, pointing(0)).method().c_str());
+  std::printf("youbot, x: %s\n", InverseKinematics(chain, Task::pointing(0)).method().c_str());
   for (int k = 0; k < 40; ++k) expectAllSolutions(chain, 0, configuration(chain, random), k < 10, tally);
   print("youbot, x", tally);
   EXPECT_GE(tally.complete, 38);
@@ -293,7 +285,7 @@ TEST(IkPointing, WholePosesOfFiveJoints) {
 TEST(IkPointing, SixJointsWithTheLastFree) {
   for (const char* name : {"puma560", "kr6_r900", "ur5", "stanford_arm", "jaco2_6dof"}) {
     const SerialChain chain = shipped(name);
-    const InverseKinematics ik(chain, pointing(2));
+    const InverseKinematics ik(chain, Task::pointing(2));
     const InverseKinematics whole(chain, Task());
     std::printf("%s: %s\n", name, ik.method().c_str());
     RandomModel random(41);
@@ -338,7 +330,7 @@ TEST(IkPointing, SingularConfigurations) {
   const SerialChain youbot = shipped("youbot_arm");
   int continua = 0;
   for (int axis : {0, 2}) {
-    const InverseKinematics ik(youbot, pointing(axis));
+    const InverseKinematics ik(youbot, Task::pointing(axis));
     for (const std::vector<double>& values :
          std::vector<std::vector<double>>{{0, 0, 0, 0, 0},
                                           {0.3, 0, 0, 0, 0.5 * kPi},

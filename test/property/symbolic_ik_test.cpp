@@ -9,7 +9,7 @@
 #include "golden.h"
 #include "ik_arms.h"
 #include "parallel_arms.h"
-#include "screwline/ik/inverse_outline_of.h"
+#include "screwline/ik/method_summary.h"
 #include "screwline/ik/task_error.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/spatial/rotation.h"
@@ -35,7 +35,7 @@ const std::vector<std::string>& written() {
 }
 
 std::optional<InverseFormulas> formulasOf(const SerialChain& chain, const Task& task) {
-  const std::optional<InverseOutline> outline = inverseOutlineOf(chain, task);
+  const std::optional<InverseOutline> outline = InverseKinematics(chain, task).outline();
   return outline ? inverseFormulasOf(chain, task, *outline) : std::nullopt;
 }
 
@@ -70,7 +70,7 @@ TEST(SymbolicInverse, FormulasReachGoldenPosesSingularOnesToo) {
     const golden::File* file = golden::load(name);
     ASSERT_NE(file, nullptr);
     for (const SerialChain* chain : {&file->chain, &file->table}) {
-      if (chain == &file->table && !inverseOutlineOf(*chain, file->task)) continue;
+      if (chain == &file->table && !InverseKinematics(*chain, file->task).outline()) continue;
       const std::optional<InverseFormulas> formulas = formulasOf(*chain, file->task);
       ASSERT_TRUE(formulas.has_value());
       for (const golden::Case& one : file->cases) {
@@ -167,19 +167,18 @@ TEST(SymbolicInverse, FormulasThatFailTheCheckAreNotShown) {
   const InverseKinematics ik(robot.chain, robot.task);
   DerivationOptions options;
   options.quantities = {"ik"};
-  options.inverse = {"method"};
   options.format = DocumentFormat::kText;
-  options.inverse_outline = inverseOutlineOf(robot.chain, robot.task);
-  options.inverse_solver = everySolution(ik);
+  InverseMethod method{{"method"}, ik.outline(), everySolution(ik)};
+  options.inverse = [&method](const SerialChain&) { return method; };
   const Derivation shown = deriveDocument(robot.chain, robot.task, options);
   EXPECT_NE(shown.document.find("theta2 = atan2(-wz, f)"), std::string::npos) << shown.document;
   EXPECT_NE(shown.document.find("the 800 solutions that the numeric solver finds"), std::string::npos);
   EXPECT_TRUE(shown.no_inverse.empty());
-  options.inverse_solver = [](const Pose&) { return std::vector<VectorX>(); };
+  method.solver = [](const Pose&) { return std::vector<VectorX>(); };
   const Derivation refused = deriveDocument(robot.chain, robot.task, options);
   EXPECT_EQ(refused.document.find("theta2 = atan2(-wz, f)"), std::string::npos);
   EXPECT_NE(refused.no_inverse.find("do not hold"), std::string::npos);
-  options.inverse_outline.reset();
+  method.outline.reset();
   EXPECT_NE(deriveDocument(robot.chain, robot.task, options).no_inverse.find("no closed form"), std::string::npos);
 }
 
@@ -199,7 +198,7 @@ TEST(SymbolicInverse, APlanarArmReadsAsInTextbooks) {
 TEST(SymbolicInverse, RobotsWithoutAClosedFormHaveNone) {
   for (const char* name : {"jaco2_6dof", "panda"}) {
     const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, name);
-    EXPECT_FALSE(inverseOutlineOf(robot.chain, robot.task).has_value()) << name;
+    EXPECT_FALSE(InverseKinematics(robot.chain, robot.task).outline().has_value()) << name;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "property/cartesian_support.h"
+#include "property/path_support.h"
 #include "screwline/trajectory/retime.h"
 #include "screwline/trajectory/tool_speed.h"
 #include "screwline/trajectory/verify.h"
@@ -13,25 +14,17 @@ namespace screwline {
 namespace {
 
 using trajectory_test::Arm;
+using trajectory_test::denseUse;
 using trajectory_test::errorOf;
 using trajectory_test::limitsOf;
 using trajectory_test::messageOf;
 using trajectory_test::Random;
 using trajectory_test::randomLimits;
+using trajectory_test::randomSpline;
 using trajectory_test::request;
 using trajectory_test::vector;
 
 constexpr int kCells = 200;  // Quick, and so that what passes between grid points shows.
-
-JointPath randomSpline(Random& random, int joints, int count) {
-  MatrixX way(joints, count);
-  std::vector<double> knots;
-  for (int k = 0; k < count; ++k) {
-    way.col(k) = random.vector(joints, -2.0, 2.0);
-    knots.push_back(static_cast<double>(k) / (count - 1));
-  }
-  return naturalSplinePath(knots, way);
-}
 
 JointPath backwards(const JointPath& path) {
   PiecewisePolynomial curve = reversed(path.curve());
@@ -45,19 +38,6 @@ RetimeOptions holdingJerk(int cells = kCells) {
   return options;
 }
 
-/// The largest share of a limit that is used, jerk included, by samples alone.
-double denseUse(const JointTrajectory& motion, const Limits& limits, int steps) {
-  TrajectoryPoint point(motion.joints());
-  double use = 0.0;
-  for (int i = 0; i <= steps; ++i) {
-    motion.sample(motion.duration() * i / steps, point);
-    use = std::max(use, (point.velocity.array().abs() / limits.velocity.array()).maxCoeff());
-    use = std::max(use, (point.acceleration.array().abs() / limits.acceleration.array()).maxCoeff());
-    use = std::max(use, (point.jerk.array().abs() / limits.jerk.array()).maxCoeff());
-  }
-  return use;
-}
-
 JointTrajectory motionOf(const JointPath& path, const RetimeResult& result) {
   return JointTrajectory::alongPath(path, result.law, result.duration);
 }
@@ -69,8 +49,8 @@ void expectHeld(const JointPath& path, const Limits& limits, const RetimeResult&
   const JointTrajectory motion = motionOf(path, result);
   EXPECT_GE(motion.continuity(), 2) << where;
   EXPECT_EQ(verifyTrajectory(motion, limits, {}).value_or(""), "") << where;
-  EXPECT_LT(denseUse(motion, limits, 5000), 1.0 + 1e-9) << where;
-  EXPECT_GT(denseUse(motion, limits, 5000), 0.97) << where;
+  EXPECT_LT(denseUse(motion, limits, 5000, 3), 1.0 + 1e-9) << where;
+  EXPECT_GT(denseUse(motion, limits, 5000, 3), 0.97) << where;
   const auto hasty = JointTrajectory::alongPath(path, result.law, result.duration * 0.999);
   EXPECT_TRUE(verifyTrajectory(hasty, limits, {}).has_value()) << where;
   TrajectoryPoint point(path.joints());

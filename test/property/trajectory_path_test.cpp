@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "property/trajectory_random.h"
+#include "property/path_support.h"
 #include "screwline/trajectory/retime.h"
 #include "screwline/trajectory/verify.h"
 #include "unit/trajectory_support.h"
@@ -16,12 +16,16 @@
 namespace screwline {
 namespace {
 
+using trajectory_test::denseUse;
 using trajectory_test::errorOf;
 using trajectory_test::limitsOf;
 using trajectory_test::messageOf;
 using trajectory_test::Random;
 using trajectory_test::randomLimits;
+using trajectory_test::randomSpline;
+using trajectory_test::randomWay;
 using trajectory_test::request;
+using trajectory_test::uniformKnots;
 using trajectory_test::vector;
 
 using Row = std::map<std::string, double>;
@@ -46,34 +50,6 @@ std::vector<Row> readCsv(const std::string& name) {
   }
   if (!rows.empty()) rows.erase(rows.begin());
   return rows;
-}
-
-/// The largest share of a velocity or acceleration limit that is used, by samples alone: between them and at them.
-double denseUse(const JointTrajectory& motion, const Limits& limits, int steps) {
-  TrajectoryPoint point(motion.joints());
-  double use = 0.0;
-  for (int i = 0; i <= steps; ++i) {
-    motion.sample(motion.duration() * i / steps, point);
-    use = std::max(use, (point.velocity.array().abs() / limits.velocity.array()).maxCoeff());
-    use = std::max(use, (point.acceleration.array().abs() / limits.acceleration.array()).maxCoeff());
-  }
-  return use;
-}
-
-std::vector<double> uniformKnots(Eigen::Index count) {
-  std::vector<double> knots;
-  for (Eigen::Index k = 0; k < count; ++k) knots.push_back(static_cast<double>(k) / static_cast<double>(count - 1));
-  return knots;
-}
-
-MatrixX randomWay(Random& random, int joints, int count) {
-  MatrixX way(joints, count);
-  for (int k = 0; k < count; ++k) way.col(k) = random.vector(joints, -2.0, 2.0);
-  return way;
-}
-
-JointPath randomSpline(Random& random, int joints, int count) {
-  return naturalSplinePath(uniformKnots(count), randomWay(random, joints, count));
 }
 
 JointPath randomQuintic(Random& random, int joints, int count) {
@@ -106,7 +82,7 @@ TEST(PathTimeOptimal, EveryReferenceRowIsAsShortAndKeepsItsLimitsEverywhere) {
     const double ratio = result.trajectory.duration() / row.at("T_interp_N4000");
     EXPECT_LT(ratio, 1.005) << "path " << row.at("path");
     EXPECT_GT(ratio, 0.999) << "path " << row.at("path");  // The reference's limits are broken by less than that.
-    EXPECT_LT(denseUse(result.trajectory, r.limits, 50000), 1.0 + 1e-9) << "path " << row.at("path");
+    EXPECT_LT(denseUse(result.trajectory, r.limits, 50000, 2), 1.0 + 1e-9) << "path " << row.at("path");
     if (r.waypoints.size() > 2) {
       EXPECT_LT(result.via_joint_errors.cwiseAbs().maxCoeff(), 1e-9);
     }
@@ -140,12 +116,12 @@ TEST(PathTimeOptimal, LimitsHoldOnRandomPathsAndTheCheckerSeesATenthOfAPercent) 
     Limits held = limits;
     held.jerk.setConstant(HUGE_VAL);
     const auto motion = JointTrajectory::alongPath(path, result.law, result.duration);
-    EXPECT_LT(denseUse(motion, limits, 20000), 1.0 + 1e-9) << "seed 12, trial " << trial;
-    EXPECT_GT(denseUse(motion, limits, 20000), 0.99) << "seed 12, trial " << trial;
+    EXPECT_LT(denseUse(motion, limits, 20000, 2), 1.0 + 1e-9) << "seed 12, trial " << trial;
+    EXPECT_GT(denseUse(motion, limits, 20000, 2), 0.99) << "seed 12, trial " << trial;
     EXPECT_FALSE(verifyTrajectory(motion, held, {}).has_value()) << "seed 12, trial " << trial;
     const auto hasty = JointTrajectory::alongPath(path, result.law, result.duration * 0.999);
     EXPECT_TRUE(verifyTrajectory(hasty, held, {}).has_value()) << "seed 12, trial " << trial;
-    EXPECT_GT(denseUse(hasty, limits, 20000), 1.0) << "seed 12, trial " << trial;
+    EXPECT_GT(denseUse(hasty, limits, 20000, 2), 1.0) << "seed 12, trial " << trial;
   }
 }
 
@@ -194,7 +170,7 @@ TEST(Retime, MovingEndsAreMetAndTooFastOnesNameWhatIsFeasible) {
     }
     ASSERT_EQ(result.status, RetimeStatus::kDone) << "seed 15, trial " << trial;
     const auto motion = JointTrajectory::alongPath(path, result.law, result.duration);
-    EXPECT_LT(denseUse(motion, limits, 5000), 1.0 + 1e-9) << "seed 15, trial " << trial;
+    EXPECT_LT(denseUse(motion, limits, 5000, 2), 1.0 + 1e-9) << "seed 15, trial " << trial;
     EXPECT_NEAR(result.law.at(0.0).ds / result.duration, options.start_rate, 1e-9);
     EXPECT_NEAR(result.law.at(1.0).ds / result.duration, options.end_rate, 1e-9);
   }

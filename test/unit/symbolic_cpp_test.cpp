@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "screwline/ik/inverse_outline_of.h"
+#include "screwline/ik/method_summary.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/spatial/rotation.h"
@@ -69,7 +69,7 @@ std::string callOf(const std::string& name, bool inverse) {
 }
 
 std::optional<InverseFormulas> formulasOf(const test::ShippedRobot& robot) {
-  const std::optional<InverseOutline> outline = inverseOutlineOf(robot.chain, robot.task);
+  const std::optional<InverseOutline> outline = InverseKinematics(robot.chain, robot.task).outline();
   return outline ? inverseFormulasOf(robot.chain, robot.task, *outline) : std::nullopt;
 }
 

@@ -20,14 +20,6 @@ namespace {
 
 const Task kPointing = Task::parse({"x", "y", "z", "tx", "ty"});
 
-Task pointing(int axis) {
-  std::vector<int> rows = {0, 1, 2};
-  for (int i = 0; i < 3; ++i) {
-    if (i != axis) rows.push_back(Task::kFirstToolRow + i);
-  }
-  return Task::fromRows(rows);
-}
-
 std::string refusalOf(const std::vector<std::string>& names) {
   try {
     Task::parse(names);
@@ -42,7 +34,7 @@ TEST(TaskRows, OfTheToolAreParsedAndNamed) {
   EXPECT_EQ(kPointing.translationCount(), 3);
   EXPECT_EQ(kPointing.rotationCount(), 2);
   EXPECT_EQ(kPointing.names(), (std::vector<std::string>{"x", "y", "z", "tx", "ty"}));
-  for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(pointing(axis).pointingAxis(), axis);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(Task::pointing(axis).pointingAxis(), axis);
   EXPECT_EQ(Task::parse({"ty", "tz"}).pointingAxis(), 0);
   for (const std::vector<std::string>& names :
        std::vector<std::vector<std::string>>{{"x", "y"}, {"tx"}, {"tx", "ty", "tz"}, {"rx", "ry"}})
@@ -63,7 +55,7 @@ TEST(TaskRows, OfTheToolNeedItsOrientation) {
 
 TEST(TaskRows, SpreadIsTheTransposeOfSelect) {
   RandomModel random(11);
-  for (const Task& task : {kPointing, pointing(0), Task::parse({"ty", "x"}), Task::parse({"rz", "y"}), Task()}) {
+  for (const Task& task : {kPointing, Task::pointing(0), Task::parse({"ty", "x"}), Task::parse({"rz", "y"}), Task()}) {
     const Matrix3 R = random.pose().R;
     const Vector6 twist = Vector6::Random();
     const VectorX values = VectorX::Random(task.size());
@@ -82,7 +74,7 @@ TEST(TaskRows, ErrorIsTheSmallestTurnOfThePointingAxis) {
       const Matrix3 about = rotationAbout(target.R.col(axis), random.uniform(-3.0, 3.0));
       actual.R = rotationAbout(random.direction(), 1e-9) * about * target.R;
     }
-    const TaskError error = taskError(pointing(axis), target, actual);
+    const TaskError error = taskError(Task::pointing(axis), target, actual);
     const double angle = error.orientation;
     ASSERT_LE(angle, kPi);
     EXPECT_NEAR(error.twist.tail<3>().dot(actual.R.col(axis)), 0.0, 1e-12);
@@ -100,9 +92,9 @@ TEST(TaskRows, ErrorOfOppositeDirectionsIsHalfATurn) {
   for (int axis = 0; axis < 3; ++axis) {
     Pose target;
     target.R = rotationAbout(Vector3::Unit((axis + 2) % 3), kPi);
-    EXPECT_NEAR(taskError(pointing(axis), target, Pose()).orientation, kPi, 1e-12);
+    EXPECT_NEAR(taskError(Task::pointing(axis), target, Pose()).orientation, kPi, 1e-12);
     target.R = -Matrix3::Identity();  // Directions opposite to the last bit.
-    const TaskError error = taskError(pointing(axis), target, Pose());
+    const TaskError error = taskError(Task::pointing(axis), target, Pose());
     EXPECT_NEAR(error.orientation, kPi, 1e-15);
     EXPECT_TRUE(error.twist.allFinite());
   }
@@ -129,7 +121,7 @@ TEST(TaskRows, JacobianIsTheDerivativeOfTheError) {
     RandomModel random(seed);
     const SerialChain chain = random.chain(random.integer(2, 7), random.chance(0.3));
     const VectorX q = random.configuration(chain.size());
-    const Task task = pointing(random.integer(0, 2));
+    const Task task = Task::pointing(random.integer(0, 2));
     MatrixX rows = taskJacobian(chain, q, task);
     ASSERT_LE(worstRowError(chain, q, task, rows), 2e-8) << "seed " << seed;
     rows(3, chain.size() - 1) += 1e-5;
@@ -151,8 +143,9 @@ TEST(TaskRows, DeterminantIsThatOfAJointMore) {
     longer.col(5) << Vector3::Zero(), tip.R.col(axis);
     const double expected = std::abs(longer.determinant());
     const double scale = 1e-13 * std::pow(1.0 + J.norm(), 5);
-    EXPECT_NEAR(std::abs(taskJacobian(chain, q, pointing(axis)).determinant()), expected, scale) << "seed " << seed;
-    EXPECT_NEAR(std::abs(TaskDeterminant(chain, pointing(axis))(q)), expected, scale) << "seed " << seed;
+    EXPECT_NEAR(std::abs(taskJacobian(chain, q, Task::pointing(axis)).determinant()), expected, scale)
+        << "seed " << seed;
+    EXPECT_NEAR(std::abs(TaskDeterminant(chain, Task::pointing(axis))(q)), expected, scale) << "seed " << seed;
   }
 }
 
@@ -182,13 +175,13 @@ TEST(TaskRows, PowerIsTheSameInJointsAndAtTheTool) {
 TEST(TaskRows, AnArmThatTurnsAboutThePointingAxisIsAlwaysSingular) {
   const SerialChain youbot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "youbot_arm").chain;
   const VectorX q = (VectorX(5) << 0.4, -0.5, 0.9, 0.3, -0.2).finished();
-  const SingularityAnalysis z = analyzeSingularity(youbot, q, pointing(2));
+  const SingularityAnalysis z = analyzeSingularity(youbot, q, Task::pointing(2));
   EXPECT_TRUE(z.singular);
   EXPECT_EQ(z.rank.rank, 4);
   EXPECT_NEAR(std::abs(z.rank.self_motions(0, 4)), 1.0, 1e-12);
   ASSERT_EQ(z.conditions.size(), 1U);
   EXPECT_EQ(z.conditions.front().name, "always");
-  const SingularityAnalysis x = analyzeSingularity(youbot, q, pointing(0));
+  const SingularityAnalysis x = analyzeSingularity(youbot, q, Task::pointing(0));
   EXPECT_FALSE(x.singular);
   for (const SingularCondition& condition : x.conditions)
     std::printf("youbot, direction of x: %s, %s\n", condition.name.c_str(), condition.expression.c_str());
@@ -201,7 +194,7 @@ TEST(TaskRows, FormulaOfTheDeterminantIsTheNumber) {
     DerivationOptions options;
     options.quantities = {"determinant", "singularities"};
     options.check_configurations = 20;
-    const Derivation derivation = deriveDocument(youbot, pointing(axis), options);
+    const Derivation derivation = deriveDocument(youbot, Task::pointing(axis), options);
     EXPECT_LE(derivation.worst_deviation, 1e-12);
     for (const std::string& factor : derivation.factors)
       std::printf("youbot, axis %d: factor %s\n", axis, factor.c_str());
@@ -211,7 +204,7 @@ TEST(TaskRows, FormulaOfTheDeterminantIsTheNumber) {
 
 TEST(TaskRows, FiveJointsAreGivenTheDirectionThatTheyControl) {
   const SerialChain youbot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "youbot_arm").chain;
-  EXPECT_EQ(deriveTask(youbot), pointing(0)) << "its last joint turns about z";
+  EXPECT_EQ(deriveTask(youbot), Task::pointing(0)) << "its last joint turns about z";
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #define SCREWLINE_IK_INVERSE_KINEMATICS_H
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "screwline/kinematics/inverse_outline.h"
 #include "screwline/model/serial_chain.h"
 #include "screwline/model/task.h"
 
@@ -79,6 +81,8 @@ class InverseKinematics {
   bool complete() const;
   /// The branch names that solutions can have; empty where the method does not name them.
   std::vector<std::string> branches() const;
+  /// The closed form, where there is one for all rows of the task: for whoever writes it down.
+  std::optional<InverseOutline> outline() const;
 
   /// All solutions of one pose. Verified: every solution's errors come from forward kinematics and are below 1e-9.
   /// Deterministic: the same request gives the same bytes. Allocates its result.

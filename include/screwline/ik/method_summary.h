@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_IK_METHOD_SUMMARY_H
 #define SCREWLINE_IK_METHOD_SUMMARY_H
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,12 @@ namespace screwline {
 /// For people, a line each: what the axes share, the method that follows from it, whether it finds every solution, the
 /// branches that solutions can have. No formulas. Allocates.
 std::vector<std::string> summaryOf(const InverseKinematics& ik);
+
+/// All solutions of a pose, limits not looked at. @pre `ik` outlives what is returned.
+InverseSolver everySolution(const InverseKinematics& ik);
+
+/// What is written about a solver, which it keeps alive.
+InverseMethod inverseMethodOf(std::shared_ptr<const InverseKinematics> ik);
 
 }  // namespace screwline
 

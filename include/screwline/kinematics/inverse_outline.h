@@ -2,6 +2,12 @@
 #define SCREWLINE_KINEMATICS_INVERSE_OUTLINE_H
 
 #include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "screwline/spatial/pose.h"
 
 namespace screwline {
 
@@ -30,6 +36,16 @@ struct InverseOutline {
   int first_parallel = 0;
   int single = 0;
   int pair = 0;  ///< First of the two.
+};
+
+/// All solutions of a pose, limits not looked at.
+using InverseSolver = std::function<std::vector<VectorX>(const Pose&)>;
+
+/// A solver as it is written about.
+struct InverseMethod {
+  std::vector<std::string> summary;       ///< For people, a line each; empty: nothing is known.
+  std::optional<InverseOutline> outline;  ///< Empty where it has no closed form.
+  InverseSolver solver;                   ///< What formulas are compared with; empty: they are not.
 };
 
 }  // namespace screwline

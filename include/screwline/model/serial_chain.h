@@ -75,6 +75,9 @@ class SerialChain {
   /// 1e-6.
   double characteristicLength() const { return characteristic_length_; }
 
+  /// What it was made of, for a chain that differs from it: without the table, which is the chain's own.
+  ChainDescription description() const;
+
   /// A copy with other tip: `link` must be rigidly beyond the last axis. Used for link_name in inverse kinematics.
   SerialChain withTip(const Link& link) const;
 

@@ -26,6 +26,9 @@ class Task {
   /// @pre rows are distinct, at least one, each in 0..5 or 6..8, not both of 3..5 and of 6..8.
   static Task fromRows(const std::vector<int>& rows);
 
+  /// The position and the direction of one of the tool's axes (0..2): x y z and the two others of tx ty tz.
+  static Task pointing(int axis);
+
   int size() const { return size_; }
   int row(int i) const { return rows_[static_cast<std::size_t>(i)]; }  ///< 0..8.
   bool contains(int row) const;
@@ -39,8 +42,23 @@ class Task {
   /// The task's rows of a 6xn matrix of twists, in task order: size() x n. `R` turns tool coordinates into those of J,
   /// read only where usesToolAxes(). Allocates.
   MatrixX select(const Matrix6X& J, const Matrix3& R) const;
+  /// The same without allocation, into `rows` of that size.
+  template <typename Matrix>
+  void selectInto(const Matrix6X& J, const Matrix3& R, Matrix& rows) const {
+    for (int i = 0; i < size_; ++i) {
+      if (row(i) < kFirstToolRow) {
+        rows.row(i) = J.row(row(i));
+      } else {
+        rows.row(i).noalias() = R.col(row(i) - kFirstToolRow).transpose() * J.bottomRows<3>();
+      }
+    }
+  }
   /// The same of a 6-vector.
   VectorX select(const Vector6& v, const Matrix3& R) const;
+  /// @pre task row i turns. The axis that it turns about, in the frame that R turns tool coordinates into.
+  Vector3 axisOf(int i, const Matrix3& R) const {
+    return row(i) < kFirstToolRow ? Vector3(Vector3::Unit(row(i) - 3)) : Vector3(R.col(row(i) - kFirstToolRow));
+  }
   /// The transpose: the twist (or wrench) whose components along the task's rows are `values`, zero across them.
   Vector6 spread(const VectorX& values, const Matrix3& R) const;
 

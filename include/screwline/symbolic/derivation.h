@@ -1,7 +1,7 @@
 #ifndef SCREWLINE_SYMBOLIC_DERIVATION_H
 #define SCREWLINE_SYMBOLIC_DERIVATION_H
 
-#include <optional>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,10 +16,10 @@ struct DerivationOptions {
   /// Of drawing, fk, jacobian, propagation, determinant, singularities, statics, ik; empty: all.
   std::vector<std::string> quantities;
   DocumentFormat format = DocumentFormat::kMarkdown;
-  std::vector<std::string> inverse;  ///< Lines that tell of inverse kinematics (ik/method_summary.h), for `ik`.
-  std::optional<InverseOutline> inverse_outline;  ///< The solver's closed form (ik/inverse_outline_of.h), for `ik`.
-  InverseSolver inverse_solver;                   ///< What inverse formulas are compared with.
-  std::string drawing_file;                       ///< What a Markdown document calls the drawing; empty: it has none.
+  /// The inverse kinematics of the chain that the document describes (ik/method_summary.h), asked for `ik` only; empty:
+  /// nothing is said of it.
+  std::function<InverseMethod(const SerialChain&)> inverse;
+  std::string drawing_file;  ///< What a Markdown document calls the drawing; empty: it has none.
   SymbolicOptions symbolic;
   double right_angles = kRightAngleTolerance;  ///< [rad] For withRightAngles(); 0: angles are taken as they are.
   int check_configurations = 100;              ///< Random ones at which each formula is compared with the numeric core.

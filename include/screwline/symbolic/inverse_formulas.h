@@ -2,7 +2,6 @@
 #define SCREWLINE_SYMBOLIC_INVERSE_FORMULAS_H
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,9 +64,6 @@ struct InverseCheck {
   bool agrees() const { return missing == 0 && extra == 0; }
 };
 
-/// All solutions of a pose, limits not looked at.
-using InverseSolver = std::function<std::vector<VectorX>(const Pose&)>;
-
 /// Compares at `poses` configurations of a fixed random sequence. Poses are skipped where the configuration is nearly
 /// singular (two solutions that nearly meet can not be told apart).
 InverseCheck checkInverse(const InverseFormulas& formulas, const SerialChain& chain, const Task& task,
@@ -83,10 +79,8 @@ struct InverseDerivation {
 constexpr double kInverseAgreement =
     1e-9;  ///< [rad, chain's lengths] of the task's rows: what deviates more is not shown.
 
-/// @param outline empty where the solver has no closed form. @param solver what the formulas are compared with; empty:
-/// they are not. @throws DerivationStopped
-InverseDerivation deriveInverse(const SerialChain& chain, const Task& task,
-                                const std::optional<InverseOutline>& outline, const InverseSolver& solver, int poses,
+/// The formulas of a chain's method, compared with it at so many poses. @throws DerivationStopped
+InverseDerivation deriveInverse(const SerialChain& chain, const Task& task, const InverseMethod& method, int poses,
                                 const SymbolicOptions& options = {}, const Progress& progress = {});
 
 }  // namespace screwline

@@ -251,9 +251,7 @@ std::vector<Pose> stencil(const Task& task, const Pose& target, double length, d
       if (row < 3) {
         pose.p[row] += side * length;
       } else {
-        const Vector3 axis = row < Task::kFirstToolRow ? Vector3(Vector3::Unit(row - 3))
-                                                       : Vector3(target.R.col(row - Task::kFirstToolRow));
-        pose.R = rotationAbout(axis, side * angle) * target.R;
+        pose.R = rotationAbout(task.axisOf(i, target.R), side * angle) * target.R;
       }
       poses.push_back(pose);
     }

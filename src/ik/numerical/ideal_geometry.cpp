@@ -169,18 +169,6 @@ class Conditions {
   std::vector<Condition> conditions_;
 };
 
-ChainDescription describe(const SerialChain& chain) {
-  ChainDescription description;
-  description.name = chain.name();
-  description.base_link = chain.baseLink();
-  description.tip_link = chain.tipLink();
-  description.joints = chain.joints();
-  description.axes = chain.axes();
-  description.home = chain.home();
-  description.links = chain.links();
-  return description;
-}
-
 /// Distance of a point to an axis's line; the line of a slide is anywhere.
 double distanceToLine(const Axis& axis, const Vector3& point) {
   return axis.prismatic ? 0.0 : (point - axis.point).cross(axis.direction).norm();
@@ -203,7 +191,7 @@ std::optional<IdealGeometry> idealized(const SerialChain& chain, const IdealTole
     residual = conditions.residual(axes.list());
   }
   if (!(residual.cwiseAbs().maxCoeff() <= kSatisfied)) return std::nullopt;
-  ChainDescription description = describe(chain);
+  ChainDescription description = chain.description();
   description.axes = axes.inMetres();
   double turn = 0.0;
   double move = 0.0;
@@ -215,7 +203,7 @@ std::optional<IdealGeometry> idealized(const SerialChain& chain, const IdealTole
 }
 
 SerialChain withFixedJoint(const SerialChain& chain, int joint, double value) {
-  ChainDescription description = describe(chain);
+  ChainDescription description = chain.description();
   const auto k = static_cast<std::size_t>(joint);
   const Axis axis = chain.axes()[k];
   Pose X;

@@ -51,7 +51,7 @@ void TaskResidual::evaluate(TaskPoint& point) {
       point.residual[i] = weight * point.error.twist[row];
       point.J.row(i) = weight * J_.row(row);
     } else {
-      const Vector3 axis = weight * X_BT.R.col(row - Task::kFirstToolRow);
+      const Vector3 axis = weight * task_->axisOf(i, X_BT.R);
       point.residual[i] = axis.dot(point.error.twist.tail<3>());
       point.J.row(i).noalias() = axis.transpose() * J_.bottomRows<3>();
     }

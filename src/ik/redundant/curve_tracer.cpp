@@ -204,11 +204,9 @@ bool traceCurve(PoseCurve& pose, const Vector7& start, SelfMotionCurve& curve) {
   if (!pose.correct(start, 0.1, node) || node.gain <= kSingularStart) return false;
   curve = SelfMotionCurve();
   curve.closed = Walk(pose, node, 1.0).run(curve.nodes, curve.crossings);
-  curve.crosses = !curve.crossings.empty();
   if (curve.closed) return true;
   std::vector<SelfMotionNode> behind;
   Walk(pose, node, -1.0).run(behind, curve.crossings);
-  curve.crosses = !curve.crossings.empty();
   std::reverse(behind.begin(), behind.end());
   const double length = behind.front().arc;
   for (SelfMotionNode& n : behind) {

@@ -54,8 +54,8 @@ void conclude(const SerialChain& chain, bool closed_form, SelfMotionSet& set) {
       std::all_of(chain.joints().begin(), chain.joints().end(), [](const Joint& joint) { return joint.isRevolute(); });
   const bool broken = turns_only && std::any_of(set.curves.begin(), set.curves.end(),
                                                 [](const SelfMotionCurve& curve) { return !curve.closed; });
-  const bool crossing =
-      std::any_of(set.curves.begin(), set.curves.end(), [](const SelfMotionCurve& curve) { return curve.crosses; });
+  const bool crossing = std::any_of(set.curves.begin(), set.curves.end(),
+                                    [](const SelfMotionCurve& curve) { return !curve.crossings.empty(); });
   if (!closed_form) {
     set.note = "curves that no start of the numerical search met are missing";
   } else if (!set.complete) {

@@ -36,8 +36,7 @@ struct SelfMotionInterval {
 struct SelfMotionCurve {
   std::vector<SelfMotionNode> nodes;  ///< A closed curve's last node is its first, some full turns on.
   bool closed = false;
-  bool crosses = false;                       ///< Runs through a point where solution curves cross.
-  std::vector<Vector7> crossings;             ///< Such points [rad or m], to about 1e-4.
+  std::vector<Vector7> crossings;             ///< Points where solution curves cross [rad or m], to about 1e-4.
   std::vector<int> folds;                     ///< Nodes where the parameter joint turns back: two branches meet.
   std::vector<SelfMotionArc> arcs;            ///< Between folds; a closed curve's last arc may end beyond its end.
   std::vector<SelfMotionInterval> intervals;  ///< Within limits.
