@@ -6,13 +6,12 @@
 #include <cstdlib>
 #include <string>
 
-#include <Eigen/SVD>
-
 #include "screwline/ik/inverse_kinematics.h"
 #include "screwline/ik/task_error.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/kinematics/singularity.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace test {
@@ -218,8 +217,7 @@ class IkGate {
       const Pose tip = geometricJacobian(chain_, at, J);
       return ik_.task().select(taskError(ik_.task(), target_, tip).twist, tip.R);
     };
-    const Eigen::JacobiSVD<MatrixX> svd(taskJacobian(chain_, q_, ik_.task()),
-                                        Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Svd svd(taskJacobian(chain_, q_, ik_.task()), Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::Index last = chain_.size() - 1;
     const double sigma = svd.singularValues()[last];
     if (sigma > 1e-2 || sigma < 1e-10) return false;

@@ -61,8 +61,8 @@ check_installed_launch() {
   done
 }
 
-# A user's workspace (hidden, as the install space is): the sources linked into src/, `catkin_make install`. With the options of the main
-# build, so that the objects of the core, which read no generated header, are in the cache.
+# A user's workspace (hidden, as the install space is): the sources linked into src/, `catkin_make install`. With the options and, as they are the
+# same, the generated headers of the main build, so that the objects are in the cache.
 check_catkin_make() {
   local status=0
   build_workspace || status=$?
@@ -74,12 +74,13 @@ check_catkin_make() {
 build_workspace() {
   local workspace=$BUILD/.workspace cache=()
   command -v ccache >/dev/null &&
-    cache=("-DCMAKE_CXX_COMPILER_LAUNCHER=$ROOT/scripts/lib/through_link;$workspace/src/screwline;$ROOT;ccache")
+    cache=("-DCMAKE_CXX_COMPILER_LAUNCHER=$ROOT/scripts/lib/through_link;$workspace/src/screwline;$ROOT;$workspace/devel/include;$BUILD/devel/include;--;ccache")
   rm -rf "$workspace/install"
   mkdir -p "$workspace/src"
   ln -sfn "$ROOT" "$workspace/src/screwline"
   (cd "$workspace" && catkin_make install -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCATKIN_ENABLE_TESTING=OFF -DCMAKE_BUILD_TYPE=Release \
     "${cache[@]}" -DSCREWLINE_WERROR=ON -j "$JOBS") || return 1
+  diff -r "$workspace/devel/include" "$BUILD/devel/include" || return 1
   (source_ros "$workspace/install/setup.bash" && "$ROOT/scripts/lib/try_install" "$workspace/install")
 }
 

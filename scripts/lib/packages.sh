@@ -22,12 +22,9 @@ TEST_PACKAGES=(
   libgtest-dev libgmock-dev librostest-dev python3-rostest liborocos-kdl-dev libkdl-parser-dev liburdf-dev catkin-lint
 )
 
-# Adds what only some releases have, or what is meaningful on one only.
+# Adds what only some releases have.
 release_packages() {
-  case $(release) in
-    bookworm) TEST_PACKAGES+=(librapidcheck-dev clang-format-14) ;;
-    trixie) TEST_PACKAGES+=(librapidcheck-dev) ;;
-  esac
+  if [[ $(release) == bookworm ]]; then TEST_PACKAGES+=(clang-format-14); fi
 }
 
 # install_packages GROUP...: of `build run look test`. Quick where nothing is missing.

@@ -1,13 +1,13 @@
 #include "completed_method.h"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/spatial/rotation.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -40,7 +40,7 @@ bool returned(const SerialChain& chain, const Task& task, const Pose& target, co
 /// Joints whose values give the others' on a self-motion of that dimension.
 std::vector<int> parameters(const MatrixX& J_task, std::size_t dimension) {
   const auto k = static_cast<Eigen::Index>(dimension);
-  const Eigen::JacobiSVD<MatrixX> svd(J_task, Eigen::ComputeFullV);
+  const Svd svd(J_task, Eigen::ComputeFullV);
   const MatrixX null_space = svd.matrixV().rightCols(k).transpose();
   const Eigen::ColPivHouseholderQR<MatrixX> qr(null_space);
   std::vector<int> joints;

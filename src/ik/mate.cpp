@@ -1,11 +1,11 @@
 #include "mate.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "screwline/kinematics/jacobian.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -91,7 +91,7 @@ bool refine(Residual& residual, const VectorX& q, double reach, VectorX& solutio
 std::vector<VectorX> solutionsAbout(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q) {
   Residual residual(chain, task, target);
   residual.at(q);
-  const Eigen::JacobiSVD<MatrixX> svd(residual.jacobian(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Svd svd(residual.jacobian(), Eigen::ComputeFullU | Eigen::ComputeFullV);
   const VectorX sigma = svd.singularValues();
   const Eigen::Index last = q.size() - 1;
   if (sigma[last] > kNearSingular * sigma[0]) return {};

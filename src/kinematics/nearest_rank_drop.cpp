@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 #include "nearest_zero.h"
 #include "sampling.h"
 #include "screwline/kinematics/singularity.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -49,7 +49,7 @@ class RankDrop {
     Matrix6X J;
     const Matrix3 R_BT = geometricJacobian(volume_.chain(), q, J).R;
     const MatrixX J_task = taskJacobian(volume_.task(), J, R_BT);
-    const VectorX sigma = Eigen::JacobiSVD<MatrixX>(J_task).singularValues();
+    const VectorX sigma = Svd(J_task).singularValues();
     return rankOf(sigma, jacobianNoise(J)) < sigma.size();
   }
 
@@ -98,7 +98,7 @@ class RankDrop {
   /// singular directions, and for the null directions of the longer side in place of its partner.
   void linearise(const VectorX& q, MatrixX& G, VectorX& r) const {
     const MatrixX J = jacobianAt(q);
-    const Eigen::JacobiSVD<MatrixX> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Svd svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::Index short_side = std::min(J.rows(), J.cols());
     const Eigen::Index count = std::max(J.rows(), J.cols()) - short_side + 1;
     const bool wide = J.rows() <= J.cols();

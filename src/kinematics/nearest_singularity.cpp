@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SVD>
-
 #include "nearest_zero.h"
 #include "screwline/kinematics/singularity.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -14,7 +13,7 @@ namespace {
 bool isSingular(const TaskDeterminant& determinant, const VectorX& q) {
   Matrix6X J;
   const Matrix3 R_BT = geometricJacobian(determinant.chain(), q, J).R;
-  const VectorX sigma = Eigen::JacobiSVD<MatrixX>(taskJacobian(determinant.task(), J, R_BT)).singularValues();
+  const VectorX sigma = Svd(taskJacobian(determinant.task(), J, R_BT)).singularValues();
   return rankOf(sigma, jacobianNoise(J)) < sigma.size();
 }
 

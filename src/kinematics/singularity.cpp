@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SVD>
-
 #include "nearest_singularity.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -50,7 +49,7 @@ double jacobianNoise(const Matrix6X& J) {
 }
 
 TaskRank taskRank(const MatrixX& task_jacobian, double noise) {
-  const Eigen::JacobiSVD<MatrixX> svd(task_jacobian, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Svd svd(task_jacobian, Eigen::ComputeFullU | Eigen::ComputeFullV);
   TaskRank result;
   result.singular_values = svd.singularValues();
   result.rank = rankOf(result.singular_values, noise);
@@ -60,7 +59,7 @@ TaskRank taskRank(const MatrixX& task_jacobian, double noise) {
 }
 
 VectorX singularValues(const MatrixX& task_jacobian) {
-  return Eigen::JacobiSVD<MatrixX>(task_jacobian).singularValues();
+  return Svd(task_jacobian).singularValues();
 }
 
 double manipulability(const MatrixX& task_jacobian) {

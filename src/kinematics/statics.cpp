@@ -1,8 +1,7 @@
 #include "screwline/kinematics/statics.h"
 
-#include <Eigen/SVD>
-
 #include "screwline/kinematics/singularity.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 VectorX effortOf(const SerialChain& chain, const ConstVectorRef& q, const Vector6& wrench) {
@@ -16,7 +15,7 @@ WrenchSolution wrenchOf(const SerialChain& chain, const ConstVectorRef& q, const
   Matrix6X J;
   const Matrix3 R_BT = geometricJacobian(chain, q, J).R;
   const MatrixX A = taskJacobian(task, J, R_BT).transpose();
-  const Eigen::JacobiSVD<MatrixX> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Svd svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const int rank = rankOf(svd.singularValues(), jacobianNoise(J));
   VectorX F = VectorX::Zero(task.size());
   for (int i = 0; i < rank; ++i) {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
-#include <Eigen/SVD>
-
 #include "sampling.h"
 #include "screwline/kinematics/jacobian.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -50,7 +49,7 @@ std::vector<std::vector<int>> candidates(int size) {
 }
 
 bool isRegular(const MatrixX& J_task) {
-  const VectorX sigma = Eigen::JacobiSVD<MatrixX>(J_task).singularValues();
+  const VectorX sigma = Svd(J_task).singularValues();
   return sigma.size() == J_task.rows() && sigma[sigma.size() - 1] > kRegular * sigma[0];
 }
 

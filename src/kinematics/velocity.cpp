@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SVD>
-
 #include "screwline/kinematics/singularity.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -52,7 +51,7 @@ VelocitySolution solveVelocity(const SerialChain& chain, const ConstVectorRef& q
   const MatrixX J_task = taskJacobian(task, J, R_BT);
   const VectorX wanted = task.select(twist, R_BT);
   const double norm = wanted.norm();
-  const Eigen::JacobiSVD<MatrixX> svd(J_task, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Svd svd(J_task, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const VectorX& sigma = svd.singularValues();
   const int rank = rankOf(sigma, jacobianNoise(J));
 

@@ -1,12 +1,12 @@
 #include "screwline/ros/markers.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/kinematics/singularity.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace ros_bridge {
@@ -124,7 +124,7 @@ std::vector<Marker> screwAxisMarkers(const SerialChain& chain, const ConstVector
 
 Marker manipulabilityMarker(const Matrix6X& J, const Vector3& tool, double scale, double thinnest) {
   const MatrixX linear = J.topRows(3);
-  const Eigen::JacobiSVD<MatrixX> svd(linear, Eigen::ComputeFullU);
+  const Svd svd(linear, Eigen::ComputeFullU);
   Matrix3 axes = svd.matrixU();
   if (axes.determinant() < 0.0) axes.col(2) = -axes.col(2);
   Vector3 radii = Vector3::Zero();
@@ -142,7 +142,7 @@ Marker manipulabilityMarker(const Matrix6X& J, const Vector3& tool, double scale
 
 std::vector<Marker> lostDirectionMarkers(const Task& task, const Matrix6X& J, const Pose& tool, double near_singular,
                                          double length) {
-  const Eigen::JacobiSVD<MatrixX> svd(taskJacobian(task, J, tool.R), Eigen::ComputeFullU);
+  const Svd svd(taskJacobian(task, J, tool.R), Eigen::ComputeFullU);
   const VectorX& values = svd.singularValues();
   const double bound = std::max(near_singular * values[0], jacobianNoise(J));
   const double width = kLineWidth / kLostLength * length;

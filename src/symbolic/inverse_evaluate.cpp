@@ -3,12 +3,11 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/SVD>
-
 #include "../kinematics/sampling.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/spatial/rotation.h"
+#include "screwline/spatial/svd.h"
 #include "screwline/symbolic/inverse_formulas.h"
 
 namespace screwline {
@@ -117,7 +116,7 @@ bool isClear(const SerialChain& chain, const Task& task, const VectorX& q) {
   Matrix6X J(6, chain.size());
   const Matrix3 R = geometricJacobian(chain, q, J).R;
   J.topRows<3>() /= chain.characteristicLength();
-  const VectorX values = Eigen::JacobiSVD<MatrixX>(task.select(J, R)).singularValues();
+  const VectorX values = Svd(task.select(J, R)).singularValues();
   return values.minCoeff() > kClear * values.maxCoeff();
 }
 

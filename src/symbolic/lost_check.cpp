@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/SVD>
-
 #include "screwline/kinematics/forward.h"
 #include "screwline/kinematics/jacobian.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -99,7 +98,7 @@ class LossCheck {
 }  // namespace
 
 bool hasFullRank(const MatrixX& matrix) {
-  const VectorX values = Eigen::JacobiSVD<MatrixX>(matrix).singularValues();
+  const VectorX values = Svd(matrix).singularValues();
   return values.size() == 0 || values[values.size() - 1] > kIndependent * values[0];
 }
 

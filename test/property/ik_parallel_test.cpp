@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include "algebraic_arms.h"
 #include "parallel_arms.h"
@@ -15,6 +14,7 @@
 #include "screwline/kinematics/forward.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/spatial/screw.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -41,7 +41,7 @@ bool correct(const SerialChain& chain, const Pose& target, VectorX& q) {
   for (int i = 0; i < 12; ++i) {
     const Vector6 error = poseDifference(target, geometricJacobian(chain, q, J));
     if (error.norm() <= 1e-11) return true;
-    Eigen::JacobiSVD<MatrixX> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    Svd svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
     svd.setThreshold(1e-7);
     q += svd.solve(error);
   }
@@ -52,7 +52,7 @@ bool correct(const SerialChain& chain, const Pose& target, VectorX& q) {
 VectorX stillDirection(const SerialChain& chain, const VectorX& q, const VectorX& before) {
   Matrix6X J(6, 6);
   geometricJacobian(chain, q, J);
-  const Eigen::JacobiSVD<MatrixX> svd(J, Eigen::ComputeFullV);
+  const Svd svd(J, Eigen::ComputeFullV);
   if (svd.singularValues()[5] > 1e-6) return VectorX::Zero(6);
   const VectorX direction = svd.matrixV().col(5);
   return direction.dot(before) < 0.0 ? VectorX(-direction) : direction;

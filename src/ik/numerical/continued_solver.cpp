@@ -7,6 +7,7 @@
 #include "descent.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/spatial/rotation.h"
+#include "screwline/spatial/svd.h"
 #include "solution_set.h"
 #include "valley.h"
 
@@ -154,7 +155,7 @@ double Continuation::weakest(const ConstVectorRef& q) {
 
 MatrixX Continuation::weakDirections(const VectorX& q) {
   weakest(q);
-  const Eigen::JacobiSVD<MatrixX> svd(MatrixX(point_.J), Eigen::ComputeFullV);
+  const Svd svd(MatrixX(point_.J), Eigen::ComputeFullV);
   Eigen::Index strong = 0;
   while (strong < svd.singularValues().size() && svd.singularValues()[strong] > singular_) ++strong;
   MatrixX directions = svd.matrixV().rightCols(chain_.size() - strong);

@@ -1,7 +1,8 @@
 #include "solution_set.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
+
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -13,7 +14,7 @@ constexpr double kBandFactor = 10.0;
 
 /// How far off a solution may be in joint space: residual over the smallest singular value.
 double jointBand(const SerialChain& chain, const Task& task, const ConstVectorRef& q, double residual) {
-  const Eigen::JacobiSVD<MatrixX> svd(taskJacobian(chain, q, task));
+  const Svd svd(taskJacobian(chain, q, task));
   const double smallest = svd.singularValues().minCoeff();
   return smallest > 0.0 ? kBandFactor * (residual + kRounding * (1.0 + lengthUnit(chain))) / smallest : kPerhapsSame;
 }

@@ -1,0 +1,3 @@
+#include "screwline/spatial/svd.h"
+
+template class Eigen::JacobiSVD<screwline::MatrixX>;
