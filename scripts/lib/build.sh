@@ -7,10 +7,11 @@ INSTALL=$BUILD/.install
 # What one build folder has compiled, another one need not. The cache is the build folder's own, whatever the user's settings are.
 export CCACHE_DIR=$BUILD/.ccache CCACHE_CONFIGPATH=$BUILD/.ccache/ccache.conf
 
-# configure DIRECTORY OPTION...
+# configure DIRECTORY OPTION...: with warnings as errors where the tests are run so anyway; what the demo has compiled, they need not.
 configure() {
   local directory=$1
   shift
+  [[ $(release) =~ ^(bullseye|bookworm|trixie)$ ]] && set -- -DSCREWLINE_WERROR=ON "$@"
   command -v ccache >/dev/null && set -- -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
   cmake -S "$ROOT" -B "$directory" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_INSTALL_PREFIX="$INSTALL" "$@"
 }
