@@ -24,15 +24,16 @@ class BreakTable {
     const std::size_t buckets = 2 * segments;
     first_ = breaks.front();
     scale_ = static_cast<double>(buckets) / (breaks.back() - breaks.front());
+    last_ = static_cast<double>(buckets - 1);
     before_.assign(buckets + 1, 0);
-    for (std::size_t k = 0; k + 1 < inner_.size(); ++k) ++before_[std::min(bucketOf(inner_[k]), buckets - 1) + 1];
+    for (std::size_t k = 0; k + 1 < inner_.size(); ++k) ++before_[bucketOf(inner_[k]) + 1];
     for (std::size_t k = 1; k <= buckets; ++k) before_[k] += before_[k - 1];
   }
 
   /// The segment that holds t, at a breakpoint the later one; outside the range the nearer end's. Does not allocate.
   std::size_t find(double t) const {
     if (inner_.empty()) return 0;
-    const std::size_t bucket = std::min(bucketOf(t), before_.size() - 2);
+    const std::size_t bucket = bucketOf(t);
     std::size_t low = before_[bucket];
     std::size_t high = before_[bucket + 1];
     // Most buckets hold one break or none: that needs no branch.
@@ -51,14 +52,15 @@ class BreakTable {
  private:
   /// Does not decrease with t, so that all breaks of a lower bucket are below t and all of a higher one above.
   std::size_t bucketOf(double t) const {
-    const double place = (t - first_) * scale_;
-    return place > 0.0 ? static_cast<std::size_t>(std::min(place, static_cast<double>(before_.size()))) : 0;
+    const double place = std::max(std::min(last_, (t - first_) * scale_), 0.0);
+    return static_cast<std::size_t>(static_cast<std::int64_t>(place));  // To a signed integer it is one instruction.
   }
 
   std::vector<double> inner_;          ///< The breaks but for the first and the last, then infinity.
   std::vector<std::uint32_t> before_;  ///< [bucket] how many of them lie in the buckets before it.
   double first_ = 0.0;
   double scale_ = 0.0;
+  double last_ = 0.0;  ///< Bucket.
 };
 
 }  // namespace screwline
