@@ -72,9 +72,8 @@ struct Four {
 
 /// Even and odd powers apart: neither waits for the other.
 template <bool kLong>
-[[gnu::target("avx2,fma")]] inline __m256d scalingRow(const ScalingRows& scaling) {
-  const double* r = scaling.rows;
-  const __m256d x = _mm256_set1_pd(scaling.x);
+[[gnu::target("avx2,fma")]] inline __m256d scalingRow(const double* r, double at) {
+  const __m256d x = _mm256_set1_pd(at);
   const __m256d x2 = _mm256_mul_pd(x, x);
   __m256d even = _mm256_loadu_pd(r + 8);
   __m256d odd = _mm256_loadu_pd(r + 12);
@@ -113,9 +112,13 @@ struct Spread {
   scaleDelta(values, start, start + line.joints, line.joints, {position, velocity, acceleration, jerk});
 }
 
-/// The last four joints may overlap those before: they get the same values twice.
-[[gnu::target("avx2,fma")]] inline void lineOf(__m256d row, const DeltaLine& line, double* position, double* velocity,
-                                               double* acceleration, double* jerk) {
+/// The last four joints may overlap those before: they get the same values twice. Not inlined: behind the lookup, which
+/// leaves the arguments where they are, neither needs a stack.
+template <bool kLong>
+[[gnu::target("avx2,fma"), gnu::noinline]] void lineAt(const double* rows, double x, const DeltaLine& line,
+                                                       double* position, double* velocity, double* acceleration,
+                                                       double* jerk) {
+  const __m256d row = scalingRow<kLong>(rows, x);
   const std::ptrdiff_t last = line.joints - 4;
   if (last < 0) return lineOfFew(row, line, position, velocity, acceleration, jerk);
   const Spread by{_mm256_permute4x64_pd(row, 0x00), _mm256_permute4x64_pd(row, 0x55), _mm256_permute4x64_pd(row, 0xaa),
@@ -160,18 +163,21 @@ bool isWide(PieceShape shape) {
 }
 
 [[gnu::target("avx2,fma")]] void evaluateScalingWide(const ScalingRows& scaling, double* values) {
-  _mm256_storeu_pd(values, scaling.long_rows ? scalingRow<true>(scaling) : scalingRow<false>(scaling));
+  _mm256_storeu_pd(values, scaling.long_rows ? scalingRow<true>(scaling.rows, scaling.x)
+                                             : scalingRow<false>(scaling.rows, scaling.x));
 }
 
 [[gnu::target("avx2,fma")]] void scaleLineWide(const ScalingTable& scale, double t, const DeltaLine& line,
                                                double* position, double* velocity, double* acceleration, double* jerk) {
-  lineOf(scalingRow<true>(scale.at(t)), line, position, velocity, acceleration, jerk);
+  const ScalingRows at = scale.at(t);
+  lineAt<true>(at.rows, at.x, line, position, velocity, acceleration, jerk);
 }
 
 [[gnu::target("avx2,fma")]] void scaleShortLineWide(const ScalingTable& scale, double t, const DeltaLine& line,
                                                     double* position, double* velocity, double* acceleration,
                                                     double* jerk) {
-  lineOf(scalingRow<false>(scale.at(t)), line, position, velocity, acceleration, jerk);
+  const ScalingRows at = scale.at(t);
+  lineAt<false>(at.rows, at.x, line, position, velocity, acceleration, jerk);
 }
 
 }  // namespace screwline
