@@ -9,6 +9,7 @@
 
 #include "redundant_arms.h"
 #include "robots.h"
+#include "screwline/ik/closed_form/parallel_plan.h"
 #include "screwline/ik/closed_form/plan.h"
 #include "screwline/ik/inverse_kinematics.h"
 #include "screwline/ik/redundant/redundant_solver.h"
@@ -76,16 +77,17 @@ Item forwardOf(const Robot& robot, bool with_jacobian) {
   return item;
 }
 
-Item planItem(const std::string& name, const ClosedFormPlan& plan, const std::vector<Pose>& targets) {
+/// Of a ClosedFormPlan or a ParallelPlan.
+template <typename Plan, typename Solutions>
+Item planItem(const std::string& name, const Plan& plan, const std::vector<Pose>& targets, Solutions solutions) {
   Item item{name + ": plan", static_cast<int>(targets.size()), nullptr};
-  PlanSolutions solutions;
   const std::array<double, kMaxPlanJoints> preferred{};
   for (const Pose& target : targets) {
     plan.solve(target, preferred.data(), solutions);
     item.solutions += solutions.count / static_cast<double>(targets.size());
   }
   item.run = [plan, targets, preferred] {
-    PlanSolutions found;
+    Solutions found;
     for (const Pose& target : targets) {
       plan.solve(target, preferred.data(), found);
       keep(found);
@@ -151,10 +153,14 @@ int main() {
   std::vector<Item> items = {unitOf(six), forwardOf(six, false), forwardOf(six, true)};
   for (const std::string& name : names) {
     const Robot robot(name);
-    const std::optional<ClosedFormPlan> plan = ClosedFormPlan::compile(robot.chain, robot.task);
-    if (!plan) continue;
     const std::vector<Pose> targets = targetsOf(robot.chain, robot.configurations);
-    items.push_back(planItem(name, *plan, targets));
+    if (const auto plan = ClosedFormPlan::compile(robot.chain, robot.task)) {
+      items.push_back(planItem(name, *plan, targets, PlanSolutions()));
+    } else if (const auto parallel = ParallelPlan::compile(robot.chain)) {
+      items.push_back(planItem(name, *parallel, targets, ParallelSolutions()));
+    } else {
+      continue;
+    }
     items.push_back(solveItem(robot, targets, items.back().solutions));
   }
   items.push_back(redundantItem("iiwa14", test::iiwa14()));

@@ -40,10 +40,11 @@ JointTrajectory JointTrajectory::scaled(VectorX start, VectorX delta, TimeLaw sc
   trajectory.scaling_ = std::move(scaling);
   if (duration > kNoTime && !trajectory.scaling_.isCycloidal()) {
     trajectory.scale_ = ScalingTable(trajectory.scaling_.pieces(), duration);
-    const SampleKernels& kernels = trajectory.kernels_;
+    const SampleKernels& kernels = sampleKernels();
     trajectory.scale_kernel_ = trajectory.scale_.hasLongRows() ? kernels.long_delta : kernels.short_delta;
+    trajectory.line_.joints = trajectory.joints_;
     for (const VectorX* values : {&trajectory.start_, &trajectory.delta_}) {
-      trajectory.line_.insert(trajectory.line_.end(), values->data(), values->data() + values->size());
+      trajectory.line_.values.insert(trajectory.line_.values.end(), values->data(), values->data() + values->size());
     }
   }
   return trajectory;
@@ -73,8 +74,7 @@ JointTrajectory JointTrajectory::piecewise(PiecewisePolynomial motion) {
   trajectory.breaks_ = BreakTable(motion.breaks);
   trajectory.stride_ = static_cast<std::size_t>(motion.degree + 1) * static_cast<std::size_t>(motion.joints);
   for (std::size_t k = 0; k < motion.segments(); ++k) {
-    const double inverse = motion.length(k) > kNoTime ? 1.0 / motion.length(k) : 0.0;
-    trajectory.spans_.push_back({motion.breaks[k], motion.breaks[k + 1], inverse});
+    trajectory.spans_.push_back({motion.breaks[k], inverseLengthOf(motion.length(k))});
   }
   trajectory.pieces_ = std::move(motion);
   return trajectory;
@@ -120,6 +120,10 @@ std::vector<double> JointTrajectory::corners() const {
   return corners;
 }
 
+void JointTrajectory::resize(TrajectoryPoint& point) const {
+  point = TrajectoryPoint(joints_);
+}
+
 void JointTrajectory::sampleOther(double t, const SampleOutput& output) const {
   const double inside = std::min(std::max(t, 0.0), duration_);
   switch (form_) {
@@ -145,9 +149,7 @@ void JointTrajectory::sampleOther(double t, const SampleOutput& output) const {
 
 void JointTrajectory::sampleScaled(double t, const SampleOutput& output) const {
   if (scale_kernel_ != nullptr) {
-    const ScalingRows at = scale_.at(t);
-    scale_kernel_(at.rows, at.x, line_.data(), joints_, output.position, output.velocity, output.acceleration,
-                  output.jerk);
+    scale_kernel_(scale_, t, line_, output.position, output.velocity, output.acceleration, output.jerk);
     return;
   }
   const double r = inverse_duration_;
@@ -159,12 +161,12 @@ void JointTrajectory::sampleScaled(double t, const SampleOutput& output) const {
 
 void JointTrajectory::samplePath(double t, const SampleOutput& output) const {
   double u[4] = {0.0, 0.0, 0.0, 0.0};  // And its derivatives by time.
-  if (!along_.empty()) kernels_.scaling(along_.at(t), u);
+  if (!along_.empty()) sampleKernels().scaling(along_.at(t), u);
   const std::size_t k = path_.segmentAt(u[0]);
   const double r = path_.inverseLength(k);
   const double x = std::min(std::max((u[0] - path_.breaks()[k]) * r, 0.0), 1.0);
   const double d1 = u[1] * r, d2 = u[2] * r, d3 = u[3] * r;
-  kernels_.segment(path_.segment(k), x, {d1, d2, d1 * d1, d3, 3.0 * d1 * d2, d1 * d1 * d1}, output);
+  sampleKernels().segment(path_.segment(k), x, {d1, d2, d1 * d1, d3, 3.0 * d1 * d2, d1 * d1 * d1}, output);
 }
 
 void JointTrajectory::sampleSinusoid(double t, const SampleOutput& output) const {

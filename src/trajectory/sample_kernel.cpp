@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "sample_kernel_wide.h"
+#include "screwline/trajectory/scaling_table.h"
 
 namespace screwline {
 namespace {
@@ -63,31 +64,20 @@ inline void deltaBlock(const double* start, const double* delta, int joint, cons
   store<Real>(by * values[3], output.jerk + joint);
 }
 
-void evaluateSegmentPlain(const SegmentCoefficients& segment, double x, const ChainFactors& f,
-                          const SampleOutput& output) {
-  int joint = 0;
-  for (; joint + 2 <= segment.joints; joint += 2) segmentBlock<Pair>(segment, joint, x, f, output);
-  if (joint < segment.joints) segmentBlock<double>(segment, joint, x, f, output);
-}
-
 void evaluateScalingPlain(const ScalingRows& scaling, double* values) {
   store<Pair>(scalingPair(scaling, 0), values);
   store<Pair>(scalingPair(scaling, 2), values + 2);
 }
 
-template <bool kLong>
-void scaleLinePlain(const double* rows, double x, const double* line, int joints, double* position, double* velocity,
+void scaleLinePlain(const ScalingTable& scale, double t, const DeltaLine& line, double* position, double* velocity,
                     double* acceleration, double* jerk) {
   double values[4];
-  evaluateScalingPlain({rows, kLong, x}, values);
-  scaleDelta(values, line, line + joints, joints, {position, velocity, acceleration, jerk});
+  evaluateScalingPlain(scale.at(t), values);
+  const double* start = line.values.data();
+  scaleDelta(values, start, start + line.joints, line.joints, {position, velocity, acceleration, jerk});
 }
 
-void evaluatePiecePlain(const SegmentCoefficients& segment, double x, double rate, const SampleOutput& output) {
-  evaluateSegmentPlain(segment, x, {rate, 0.0, rate * rate, 0.0, 0.0, rate * rate * rate}, output);
-}
-
-constexpr SampleKernels kPlain{evaluateSegmentPlain, evaluateScalingPlain, scaleLinePlain<true>, scaleLinePlain<false>,
+constexpr SampleKernels kPlain{evaluateSegmentPlain, evaluateScalingPlain, scaleLinePlain, scaleLinePlain,
                                evaluatePiecePlain};
 
 SampleKernels chosenKernels() {
@@ -110,9 +100,18 @@ const SampleKernels& sampleKernels() {
   return kernels;
 }
 
-void evaluateJoint(const SegmentCoefficients& segment, int joint, double x, const ChainFactors& f,
-                   const SampleOutput& output) {
-  segmentBlock<double>(segment, joint, x, f, output);
+void evaluateSegmentPlain(const SegmentCoefficients& segment, double x, const ChainFactors& f,
+                          const SampleOutput& output) {
+  int joint = 0;
+  for (; joint + 2 <= segment.joints; joint += 2) segmentBlock<Pair>(segment, joint, x, f, output);
+  if (joint < segment.joints) segmentBlock<double>(segment, joint, x, f, output);
+}
+
+void evaluatePiecePlain(const double* coefficients, PieceShape shape, double x, double rate, double* position,
+                        double* velocity, double* acceleration, double* jerk) {
+  evaluateSegmentPlain({coefficients, shape.joints, shape.degree}, x,
+                       {rate, 0.0, rate * rate, 0.0, 0.0, rate * rate * rate},
+                       {position, velocity, acceleration, jerk});
 }
 
 void scaleDelta(const double* values, const double* start, const double* delta, int joints,

@@ -5,19 +5,22 @@
 
 namespace screwline {
 
-/// One joint of a segment, on any processor.
-void evaluateJoint(const SegmentCoefficients& segment, int joint, double x, const ChainFactors& f,
-                   const SampleOutput& output);
+// Of the kernels for any processor, those that the wide ones leave few joints and low degrees to.
+void evaluateSegmentPlain(const SegmentCoefficients& segment, double x, const ChainFactors& f,
+                          const SampleOutput& output);
+void evaluatePiecePlain(const double* coefficients, PieceShape shape, double x, double rate, double* position,
+                        double* velocity, double* acceleration, double* jerk);
 
 // The kernels of sample_kernel.h for x86-64 processors with AVX2 and FMA; nowhere else defined.
 void evaluateSegmentWide(const SegmentCoefficients& segment, double x, const ChainFactors& f,
                          const SampleOutput& output);
 void evaluateScalingWide(const ScalingRows& scaling, double* values);
-void evaluatePieceWide(const SegmentCoefficients& segment, double x, double rate, const SampleOutput& output);
-void scaleLineWide(const double* rows, double x, const double* line, int joints, double* position, double* velocity,
+void evaluatePieceWide(const double* coefficients, PieceShape shape, double x, double rate, double* position,
+                       double* velocity, double* acceleration, double* jerk);
+void scaleLineWide(const ScalingTable& scale, double t, const DeltaLine& line, double* position, double* velocity,
                    double* acceleration, double* jerk);
-void scaleShortLineWide(const double* rows, double x, const double* line, int joints, double* position,
-                        double* velocity, double* acceleration, double* jerk);
+void scaleShortLineWide(const ScalingTable& scale, double t, const DeltaLine& line, double* position, double* velocity,
+                        double* acceleration, double* jerk);
 
 }  // namespace screwline
 

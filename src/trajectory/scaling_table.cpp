@@ -8,9 +8,8 @@ ScalingTable::ScalingTable(const PiecewisePolynomial& pieces, double stretch)
   for (double b : pieces.breaks) breaks.push_back(b * stretch);
   breaks_ = BreakTable(breaks);
   for (std::size_t segment = 0; segment < pieces.segments(); ++segment) {
-    const double length = breaks[segment + 1] - breaks[segment];
-    const double inverse_length = length > kNoTime ? 1.0 / length : 0.0;
-    spans_.push_back({breaks[segment], breaks[segment + 1], inverse_length});
+    const double inverse_length = inverseLengthOf(breaks[segment + 1] - breaks[segment]);
+    spans_.push_back({breaks[segment], inverse_length});
     const std::size_t begin = rows_.size();
     rows_.resize(begin + stride_, 0.0);
     Polynomial derivative = pieces.piece(segment, 0);

@@ -20,45 +20,46 @@ class BreakTable {
     const std::size_t segments = breaks.size() < 2 ? 0 : breaks.size() - 1;
     if (segments < 2 || !(breaks.back() > breaks.front())) return;
     inner_.assign(breaks.begin() + 1, breaks.end() - 1);
-    inner_.push_back(std::numeric_limits<double>::infinity());  // So that find() may look at one in any bucket.
-    const std::size_t buckets = 2 * segments;
+    buckets_.resize(2 * segments);
     first_ = breaks.front();
-    scale_ = static_cast<double>(buckets) / (breaks.back() - breaks.front());
-    before_.assign(buckets + 1, 0);
-    for (std::size_t k = 0; k + 1 < inner_.size(); ++k) ++before_[std::min(bucketOf(inner_[k]), buckets - 1) + 1];
-    for (std::size_t k = 1; k <= buckets; ++k) before_[k] += before_[k - 1];
+    scale_ = static_cast<double>(buckets_.size()) / (breaks.back() - breaks.front());
+    last_ = static_cast<double>(buckets_.size() - 1);
+    for (double b : inner_) ++buckets_[bucketOf(b)].count;
+    for (std::size_t k = 1; k < buckets_.size(); ++k)
+      buckets_[k].before = buckets_[k - 1].before + buckets_[k - 1].count;
+    inner_.push_back(std::numeric_limits<double>::infinity());  // So that find() may look at one behind any bucket.
   }
 
   /// The segment that holds t, at a breakpoint the later one; outside the range the nearer end's. Does not allocate.
   std::size_t find(double t) const {
-    if (inner_.empty()) return 0;
-    const std::size_t bucket = std::min(bucketOf(t), before_.size() - 2);
-    std::size_t low = before_[bucket];
-    std::size_t high = before_[bucket + 1];
-    // Most buckets hold one break or none: that needs no branch.
-    if (high - low < 2) return low + static_cast<std::size_t>((high > low) & (inner_[low] <= t));
-    while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      if (inner_[middle] <= t) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
+    if (buckets_.empty()) return 0;
+    const Bucket& bucket = buckets_[bucketOf(t)];
+    const double* next = inner_.data() + bucket.before;
+    for (std::size_t left = bucket.count; left > 1;) {  // Most buckets hold one break or none.
+      const std::size_t half = left / 2;
+      if (next[half - 1] <= t) next += half;
+      left -= half;
     }
-    return low;
+    return static_cast<std::size_t>(next - inner_.data()) + static_cast<std::size_t>(*next <= t);
   }
 
  private:
+  struct Bucket {
+    std::uint32_t before = 0;  ///< Breaks in the buckets before it.
+    std::uint32_t count = 0;   ///< Breaks in it.
+  };
+
   /// Does not decrease with t, so that all breaks of a lower bucket are below t and all of a higher one above.
   std::size_t bucketOf(double t) const {
-    const double place = (t - first_) * scale_;
-    return place > 0.0 ? static_cast<std::size_t>(std::min(place, static_cast<double>(before_.size()))) : 0;
+    const double place = std::max(std::min(last_, (t - first_) * scale_), 0.0);
+    return static_cast<std::size_t>(static_cast<std::int64_t>(place));  // To a signed integer it is one instruction.
   }
 
-  std::vector<double> inner_;          ///< The breaks but for the first and the last, then infinity.
-  std::vector<std::uint32_t> before_;  ///< [bucket] how many of them lie in the buckets before it.
+  std::vector<double> inner_;  ///< The breaks but for the first and the last, then infinity.
+  std::vector<Bucket> buckets_;
   double first_ = 0.0;
   double scale_ = 0.0;
+  double last_ = 0.0;  ///< Bucket.
 };
 
 }  // namespace screwline

@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_TRAJECTORY_JOINT_TRAJECTORY_H
 #define SCREWLINE_TRAJECTORY_JOINT_TRAJECTORY_H
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -63,15 +64,14 @@ class JointTrajectory {
 
   /// State at t [s] into `point`. Allocates only where `point` has not n entries. O(log segments).
   void sample(double t, TrajectoryPoint& point) const {
-    if (point.position.size() != joints_) point = TrajectoryPoint(joints_);
+    if (point.position.size() != joints_) resize(point);
     sample(t, point.position.data(), point.velocity.data(), point.acceleration.data(), point.jerk.data());
   }
   /// The same into arrays of n doubles. Never allocates.
   void sample(double t, double* position, double* velocity, double* acceleration, double* jerk) const {
     const bool inside = t >= 0.0 && t <= duration_;
     if (inside && scale_kernel_ != nullptr) {
-      const ScalingRows at = scale_.at(t);
-      scale_kernel_(at.rows, at.x, line_.data(), joints_, position, velocity, acceleration, jerk);
+      scale_kernel_(scale_, t, line_, position, velocity, acceleration, jerk);
     } else if (inside && !spans_.empty()) {
       samplePieces(t, {position, velocity, acceleration, jerk});
     } else {
@@ -97,18 +97,17 @@ class JointTrajectory {
   enum class Form { kPiecewise, kScaled, kAlongPath, kSinusoidal };
   struct Span {
     double start = 0.0;
-    double end = 0.0;
-    double inverse_length = 0.0;  ///< 0 for a piece that takes no time.
+    double inverse_length = 0.0;  ///< As inverseLengthOf().
   };
 
   void samplePieces(double t, const SampleOutput& output) const {
     const std::size_t k = breaks_.find(t);
     const Span& span = spans_[k];
-    const double r = span.inverse_length;
-    const double x = t >= span.end && r > 0.0 ? 1.0 : (t - span.start) * r;
-    const SegmentCoefficients segment{pieces_.coefficients.data() + k * stride_, joints_, pieces_.degree};
-    kernels_.piece(segment, x, r, output);
+    const double x = std::min((t - span.start) * span.inverse_length, 1.0);
+    piece_kernel_(pieces_.coefficients.data() + k * stride_, {joints_, pieces_.degree}, x, span.inverse_length,
+                  output.position, output.velocity, output.acceleration, output.jerk);
   }
+  void resize(TrajectoryPoint& point) const;
   /// Every form, and instants outside.
   void sampleOther(double t, const SampleOutput& output) const;
   void sampleScaled(double t, const SampleOutput& output) const;
@@ -119,7 +118,6 @@ class JointTrajectory {
   JointExtrema pathExtrema(int joint) const;
   JointExtrema sinusoidExtrema(int joint) const;
 
-  SampleKernels kernels_ = sampleKernels();
   Form form_ = Form::kPiecewise;
   int joints_ = 0;
   double duration_ = 0.0;
@@ -129,7 +127,7 @@ class JointTrajectory {
   TimeLaw scaling_ = TimeLaw::rectangular();
   ScalingTable scale_;  ///< s by time, of the scaled form; empty where s is no polynomial or nothing takes time.
   DeltaKernel scale_kernel_ = nullptr;  ///< For its rows; null where it is empty.
-  std::vector<double> line_;            ///< start_, then delta_.
+  DeltaLine line_;                      ///< start_ and delta_, for them.
   ScalingTable along_;                  ///< u by time, along a path.
   JointPath path_;
   std::vector<JointExtrema> extrema_;  ///< Along a path: of each joint.
@@ -137,6 +135,7 @@ class JointTrajectory {
   BreakTable breaks_;  ///< Of the pieces.
   std::vector<Span> spans_;
   std::size_t stride_ = 0;
+  PieceKernel piece_kernel_ = sampleKernels().piece;
   Sinusoid sinusoid_;
 };
 

@@ -1,7 +1,11 @@
 #ifndef SCREWLINE_TRAJECTORY_SAMPLE_KERNEL_H
 #define SCREWLINE_TRAJECTORY_SAMPLE_KERNEL_H
 
+#include <vector>
+
 namespace screwline {
+
+class ScalingTable;
 
 /// Coefficients of the polynomials of all joints over one segment, as [power][joint].
 struct SegmentCoefficients {
@@ -37,8 +41,26 @@ struct ScalingRows {
   double x = 0.0;  ///< In [0, 1].
 };
 
-/// Arguments that fit into registers: the rows at x, the line, where the values go.
-using DeltaKernel = void (*)(const double* rows, double x, const double* line, int joints, double* position,
+/// What a scalar s moves: start + delta s.
+struct DeltaLine {
+  int joints = 0;
+  std::vector<double> values;  ///< Start, then delta, of each joint.
+};
+
+/// Of the polynomials of all joints: as SegmentCoefficients.
+struct PieceShape {
+  int joints = 0;
+  int degree = 0;
+};
+
+// Kernels whose arguments fit into registers.
+
+/// The line where s stands at t.
+using DeltaKernel = void (*)(const ScalingTable& scale, double t, const DeltaLine& line, double* position,
+                             double* velocity, double* acceleration, double* jerk);
+
+/// SegmentCoefficients at x, which is linear in time: its rate is dx/dt.
+using PieceKernel = void (*)(const double* coefficients, PieceShape shape, double x, double rate, double* position,
                              double* velocity, double* acceleration, double* jerk);
 
 /// How a motion is sampled. None of the functions allocates.
@@ -48,12 +70,11 @@ struct SampleKernels {
   void (*segment)(const SegmentCoefficients& segment, double x, const ChainFactors& chain, const SampleOutput& output);
   /// s and its three derivatives into 4 values.
   void (*scaling)(const ScalingRows& scaling, double* values);
-  /// One scalar for all joints: start + delta s, delta s', delta s'', delta s'''; `line` holds start, then delta, n
-  /// values each. From 8 and from 4 rows.
+  /// One scalar for all joints: start + delta s, delta s', delta s'', delta s'''. From 8 and from 4 rows.
   DeltaKernel long_delta;
   DeltaKernel short_delta;
-  /// segment() where x is linear in time: its rate is dx/dt.
-  void (*piece)(const SegmentCoefficients& segment, double x, double rate, const SampleOutput& output);
+  /// segment() where x is linear in time.
+  PieceKernel piece;
 };
 
 /// For the processor that this runs on (AVX2 and FMA where it has them), and for any: the same but for rounding.

@@ -1,6 +1,9 @@
 #ifndef SCREWLINE_TRAJECTORY_SCALING_TABLE_H
 #define SCREWLINE_TRAJECTORY_SCALING_TABLE_H
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "screwline/trajectory/break_table.h"
@@ -8,6 +11,14 @@
 #include "screwline/trajectory/sample_kernel.h"
 
 namespace screwline {
+
+/// 1 / length, the next larger number where the product of the two would come out below 1; 0 where the length is none.
+inline double inverseLengthOf(double length) {
+  if (!(length > kNoTime)) return 0.0;
+  double inverse = 1.0 / length;
+  while (inverse * length < 1.0) inverse = std::nextafter(inverse, std::numeric_limits<double>::infinity());
+  return inverse;
+}
 
 /// A scalar s(t) from polynomial pieces, laid out to be sampled: for each piece, rows of the coefficients of x^k in s,
 /// s', s'', s''', so that one pass gives all four.
@@ -22,20 +33,19 @@ class ScalingTable {
   bool empty() const { return spans_.empty(); }
   bool hasLongRows() const { return long_rows_; }
 
-  /// The rows that hold at t and the place of t in their piece; at a breakpoint the later piece's, outside the range
-  /// the nearer end. Does not allocate.
+  /// The rows that hold at t and the place of t in their piece; at a breakpoint the later piece's, behind the last
+  /// the end. Does not allocate. @pre t >= 0
   ScalingRows at(double t) const {
     const std::size_t k = breaks_.find(t);
     const Span& span = spans_[k];
-    const double x = t < span.end ? (t - span.start) * span.inverse_length : 1.0;
-    return {rows_.data() + k * stride_, long_rows_, x > 0.0 ? x : 0.0};
+    const double x = std::min(1.0, (t - span.start) * span.inverse_length);
+    return {rows_.data() + k * stride_, long_rows_, x};
   }
 
  private:
   struct Span {
     double start = 0.0;
-    double end = 0.0;
-    double inverse_length = 1.0;
+    double inverse_length = 1.0;  ///< Rounded up: at its end the place in a piece is 1. 0 for one that takes no time.
   };
 
   BreakTable breaks_;

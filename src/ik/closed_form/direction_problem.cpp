@@ -28,8 +28,8 @@ std::optional<DirectionProblem> DirectionProblem::compile(const Vector3& first, 
   return problem;
 }
 
-void DirectionProblem::solve(const Vector3& start, const Vector3& goal, double error, const Turn& preferred_first,
-                             const Turn& preferred_second, DirectionSolutions& solutions) const {
+void DirectionProblem::solve(const Vector3& start, const Vector3& goal, double error, double preferred_first,
+                             double preferred_second, DirectionSolutions& solutions) const {
   solutions.count = 0;
   const double along_first = first_.dot(goal);
   const double along_second = second_.dot(start);
@@ -64,12 +64,12 @@ void DirectionProblem::solve(const Vector3& start, const Vector3& goal, double e
     const Vector3 at_first = high + side_first * first_side_;
     const Vector3 at_second = high + side_second * second_side_;
     if (solution.first_free) {
-      solution.first = preferred_first;
+      solution.first = turnBy(preferred_first);
     } else {
       solution.first = normalized({at_first.dot(goal), first_.dot(at_first.cross(goal))});
     }
     if (solution.second_free) {
-      solution.second = preferred_second;
+      solution.second = turnBy(preferred_second);
     } else {
       solution.second = normalized({start.dot(at_second), second_.dot(start.cross(at_second))});
     }

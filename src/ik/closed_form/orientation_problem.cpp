@@ -4,7 +4,6 @@
 
 #include "screwline/ik/closed_form/roots.h"
 #include "screwline/model/structure.h"
-#include "screwline/spatial/atan2.h"
 #include "screwline/spatial/rotation.h"
 
 namespace screwline {
@@ -81,64 +80,63 @@ OrientationProblem::Middle OrientationProblem::middleOf(double cosine, double si
   return middle;
 }
 
-void OrientationProblem::solveInFrames(const Matrix3& M, double preferred, OrientationSolutions& solutions) const {
-  solutions.count = 0;
+OrientationTurns OrientationProblem::turnsInFrames(const Matrix3& M, double preferred, TurnBatch& batch) const {
+  OrientationTurns turns;
+  turns.place = batch.count();
   const double sine = std::sqrt(M(0, 2) * M(0, 2) + M(1, 2) * M(1, 2));
-  if (across_ && sine > 1e-13) return solveAcross(M, sine, solutions);
+  if (across_ && sine > 1e-13) {
+    addAcross(M, sine, batch);
+    turns.count = 2;
+    turns.half_turned = true;
+    return turns;
+  }
   const Middle middle = middleOf(M(2, 2), sine);
-  if (!middle.reached) return;
-  const bool in_line = sine <= kInLine;
-  const bool one = in_line || middle.is_double;
-  std::array<double, 6> cosines;
-  std::array<double, 6> sines;
-  std::array<double, 6> angles;
-  solutions.count = one ? 1 : 2;
-  for (int i = 0; i < solutions.count; ++i) {
+  if (!middle.reached) return turns;
+  turns.free = sine <= kInLine;
+  turns.is_double = turns.free || middle.is_double;
+  turns.count = turns.is_double ? 1 : 2;
+  for (int i = 0; i < turns.count; ++i) {
     const Turn u = i == 0 ? middle.turn : middle.turn.inverse();
     // Axis 3, and y of the frame on it, before axis 1 turns.
     const double image_x = first_.s * second_.c - first_.c * second_.s * u.c;
     const double image_y = -second_.s * u.s;
-    const Turn first = in_line ? turnBy(preferred) : turnBetween(image_x, image_y, M(0, 2), M(1, 2));
+    const Turn first = turns.free ? turnBy(preferred) : turnBetween(image_x, image_y, M(0, 2), M(1, 2));
     const Turn y = first * Turn{-first_.c * u.s, u.c};
     const double y_z = first_.s * u.s;
-    const Turn q2 = u * nearest_;
-    const auto k = static_cast<std::size_t>(3 * i);
-    cosines[k] = first.c;
-    sines[k] = first.s;
-    cosines[k + 1] = q2.c;
-    sines[k + 1] = q2.s;
-    cosines[k + 2] = y.c * M(0, 1) + y.s * M(1, 1) + y_z * M(2, 1);
-    sines[k + 2] = y.c * M(0, 0) + y.s * M(1, 0) + y_z * M(2, 0);
+    batch.add(first);
+    batch.add(u * nearest_);
+    batch.add({y.c * M(0, 1) + y.s * M(1, 1) + y_z * M(2, 1), y.c * M(0, 0) + y.s * M(1, 0) + y_z * M(2, 0)});
   }
-  atan2Many(sines.data(), cosines.data(), angles.data(), 3 * solutions.count);
-  for (int i = 0; i < solutions.count; ++i) {
-    OrientationSolution& solution = solutions.solutions[static_cast<std::size_t>(i)];
-    const auto k = static_cast<std::size_t>(3 * i);
-    solution.q = {in_line ? preferred : angles[k], angles[k + 1], angles[k + 2]};
-    solution.free = in_line;
-    solution.sign = one ? 0 : (i == 0 ? 1 : -1);
-  }
+  return turns;
 }
 
 /// Neighbours at right angles, not in line: Euler angles z, y', z'', the second solution half a turn on in the first
 /// and the third.
-void OrientationProblem::solveAcross(const Matrix3& M, double sine, OrientationSolutions& solutions) const {
+void OrientationProblem::addAcross(const Matrix3& M, double sine, TurnBatch& batch) const {
   const double scale = 1.0 / sine;
   const Turn first = {-scale * M(1, 2), scale * M(0, 2)};
   const Turn middle = {M(2, 2), sine};
   // y of the frame on axis 3, before axis 1 turns: (0, cos u, sin u).
   const Turn y = first * Turn{0.0, middle.c};
-  const std::array<double, 4> cosines = {first.c, (middle * nearest_).c,
-                                         y.c * M(0, 1) + y.s * M(1, 1) + middle.s * M(2, 1),
-                                         (middle.inverse() * nearest_).c};
-  const std::array<double, 4> sines = {first.s, (middle * nearest_).s,
-                                       y.c * M(0, 0) + y.s * M(1, 0) + middle.s * M(2, 0),
-                                       (middle.inverse() * nearest_).s};
-  std::array<double, 4> angles;
-  atan2Many(sines.data(), cosines.data(), angles.data(), 4);
-  solutions.count = 2;
-  solutions.solutions[0] = {{angles[0], angles[1], angles[2]}, false, 1};
-  solutions.solutions[1] = {{oppositeOf(angles[0]), angles[3], oppositeOf(angles[2])}, false, -1};
+  batch.add(first);
+  batch.add(middle * nearest_);
+  batch.add({y.c * M(0, 1) + y.s * M(1, 1) + middle.s * M(2, 1), y.c * M(0, 0) + y.s * M(1, 0) + middle.s * M(2, 0)});
+  batch.add(middle.inverse() * nearest_);
+}
+
+void OrientationProblem::takeFrom(const TurnBatch& batch, const OrientationTurns& turns, double preferred,
+                                  OrientationSolutions& solutions) {
+  const std::size_t k = turns.place;
+  solutions.count = turns.count;
+  OrientationSolution& first = solutions.solutions[0];
+  OrientationSolution& second = solutions.solutions[1];
+  if (turns.count > 0) first = {{turns.free ? preferred : batch[k], batch[k + 1], batch[k + 2]}, turns.free, 1};
+  if (turns.is_double) first.sign = 0;
+  if (turns.half_turned) {
+    second = {{oppositeOf(batch[k]), batch[k + 3], oppositeOf(batch[k + 2])}, false, -1};
+  } else if (turns.count == 2) {
+    second = {{batch[k + 3], batch[k + 4], batch[k + 5]}, false, -1};
+  }
 }
 
 }  // namespace screwline

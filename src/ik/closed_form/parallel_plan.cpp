@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "screwline/ik/closed_form/roots.h"
+#include "screwline/spatial/turn_batch.h"
 
 namespace screwline {
 namespace {
@@ -35,8 +36,15 @@ struct ParallelPlan::Roots {
   int count = 0;
 };
 
-Turn ParallelPlan::preferredTurn(const Question& question, int axis) const {
-  return turnBy(sense_[static_cast<std::size_t>(axis)] * question.preferred[jointOf(axis)]);
+/// Solutions, and the turns of their six axes in order: the angles are taken at the end.
+struct ParallelPlan::Answer {
+  explicit Answer(ParallelSolutions& to) : solutions(to) {}
+  ParallelSolutions& solutions;
+  TurnBatch turns;
+};
+
+double ParallelPlan::preferredAngle(const Question& question, int axis) const {
+  return sense_[static_cast<std::size_t>(axis)] * question.preferred[jointOf(axis)];
 }
 
 ParallelPlan::Question ParallelPlan::questionOf(const Pose& target, const double* preferred) const {
@@ -80,7 +88,7 @@ ParallelPlan::Roots ParallelPlan::singleRoots(const Question& question) const {
   Root root;
   if (amplitude <= kNegligible * scale && std::abs(k) <= kNegligible * scale) {
     root.free = true;
-    root.turn = preferredTurn(question, single_axis_);
+    root.turn = turnBy(preferredAngle(question, single_axis_));
     roots.roots[0] = root;
     roots.count = 1;
     return roots;
@@ -122,23 +130,24 @@ void ParallelPlan::directions(const Question& question, const Turn& single, Vect
   }
 }
 
-void ParallelPlan::solvePair(const Question& question, const Root& root, ParallelSolutions& solutions) const {
+void ParallelPlan::solvePair(const Question& question, const Root& root, Answer& answer) const {
+  ParallelSolutions& solutions = answer.solutions;
   Vector3 start;
   Vector3 goal;
   directions(question, root.turn, start, goal);
   DirectionSolutions pairs;
-  pair_->solve(start, goal, std::min(root.error, kMostError), preferredTurn(question, pair_axis_),
-               preferredTurn(question, pair_axis_ + 1), pairs);
+  pair_->solve(start, goal, std::min(root.error, kMostError), preferredAngle(question, pair_axis_),
+               preferredAngle(question, pair_axis_ + 1), pairs);
   for (const DirectionSolution& pair : pairs) {
     if (root.free) solutions.open |= bitOf(single_axis_);
     if (pair.first_free) solutions.open |= bitOf(pair_axis_);
     if (pair.second_free) solutions.open |= bitOf(pair_axis_ + 1);
     const bool free = root.free || pair.first_free || pair.second_free;
     if (free || pair.error <= kTightError) {
-      solvePlane(question, root, pair, root.error + pair.error, solutions);
-    } else if (!solvePlane(question, root, pair, 0.0, solutions) && !solveLoosely(question, root, pair, solutions)) {
+      solvePlane(question, root, pair, root.error + pair.error, answer);
+    } else if (!solvePlane(question, root, pair, 0.0, answer) && !solveLoosely(question, root, pair, answer)) {
       const int known = solutions.count;
-      solvePlane(question, root, pair, root.error + pair.error, solutions);
+      solvePlane(question, root, pair, root.error + pair.error, answer);
       for (int k = known; k < solutions.count; ++k) solutions.unlikely |= 1U << k;
     }
   }
@@ -146,14 +155,14 @@ void ParallelPlan::solvePair(const Question& question, const Root& root, Paralle
 
 /// Near alignment one turn of the pair is hardly known: within its rounding it goes where the plane has a solution.
 bool ParallelPlan::solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair,
-                                ParallelSolutions& solutions) const {
+                                Answer& answer) const {
   const double most = std::min(pair.error, kPi);
   for (const double share : {0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
     DirectionSolution moved = pair;
     Turn& loose = pair.first_loose ? moved.first : moved.second;
     loose = turnBy(share * most) * loose;
     moved.clamped = true;
-    if (solvePlane(question, root, moved, 0.0, solutions)) return true;
+    if (solvePlane(question, root, moved, 0.0, answer)) return true;
   }
   return false;
 }
@@ -183,14 +192,15 @@ void ParallelPlan::placeOf(const Question& question, const Turn& single, const T
 
 /// @param carried [rad] error of the stages before. False where there is no solution.
 bool ParallelPlan::solvePlane(const Question& question, const Root& root, const DirectionSolution& pair, double carried,
-                              ParallelSolutions& solutions) const {
+                              Answer& answer) const {
+  ParallelSolutions& solutions = answer.solutions;
   const auto k = static_cast<std::size_t>(first_parallel_);
   Turn place;
   Turn heading;
   placeOf(question, root.turn, pair.first, pair.second, place, heading);
   const double error = std::min(carried, kMostError);
   PlanarSolutions planes;
-  plane_->solve(place.c, place.s, heading, error * reach_, preferredTurn(question, first_parallel_), planes);
+  plane_->solve(place.c, place.s, heading, error * reach_, preferredAngle(question, first_parallel_), planes);
   for (const PlanarSolution& plane : planes) {
     if (plane.free) solutions.open |= bitOf(first_parallel_);
     PlanSolution solution;
@@ -199,24 +209,30 @@ bool ParallelPlan::solvePlane(const Question& question, const Root& root, const 
     turns[static_cast<std::size_t>(single_axis_)] = root.turn;
     turns[static_cast<std::size_t>(pair_axis_)] = pair.first;
     turns[static_cast<std::size_t>(pair_axis_) + 1] = pair.second;
-    for (int axis = 0; axis < 6; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      solution.q[static_cast<std::size_t>(jointOf(axis))] = sense_[i] * turns[i].angle();
-    }
-    const auto keepFree = [&](bool free, int axis) {
-      if (!free) return;
-      solution.free |= bitOf(axis);
-      solution.q[static_cast<std::size_t>(jointOf(axis))] = question.preferred[jointOf(axis)];
-    };
-    keepFree(root.free, single_axis_);
-    keepFree(pair.first_free, pair_axis_);
-    keepFree(pair.second_free, pair_axis_ + 1);
-    keepFree(plane.free, first_parallel_);
+    for (const Turn& turn : turns) answer.turns.add(turn);
+    if (root.free) solution.free |= bitOf(single_axis_);
+    if (pair.first_free) solution.free |= bitOf(pair_axis_);
+    if (pair.second_free) solution.free |= bitOf(pair_axis_ + 1);
+    if (plane.free) solution.free |= bitOf(first_parallel_);
     solution.sign = {root.sign, plane.sign, pair.sign};
     if (pair.clamped || plane.clamped) solutions.clamped |= 1U << solutions.count;
     solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solution;
   }
   return planes.count > 0;
+}
+
+void ParallelPlan::takeAngles(const Question& question, Answer& answer) const {
+  answer.turns.takeAngles();
+  std::size_t place = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(answer.solutions.count); ++k) {
+    PlanSolution& solution = answer.solutions.solutions[k];
+    for (int axis = 0; axis < 6; ++axis, ++place) {
+      const auto joint = static_cast<std::size_t>(jointOf(axis));
+      const bool free = (solution.free & bitOf(axis)) != 0U;
+      solution.q[joint] =
+          free ? question.preferred[joint] : sense_[static_cast<std::size_t>(axis)] * answer.turns[place];
+    }
+  }
 }
 
 void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSolutions& solutions) const {
@@ -226,7 +242,9 @@ void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSo
   solutions.unlikely = 0;
   const Question question = questionOf(target, preferred);
   const Roots roots = singleRoots(question);
-  for (int i = 0; i < roots.count; ++i) solvePair(question, roots.roots[static_cast<std::size_t>(i)], solutions);
+  Answer answer(solutions);
+  for (int i = 0; i < roots.count; ++i) solvePair(question, roots.roots[static_cast<std::size_t>(i)], answer);
+  takeAngles(question, answer);
 }
 
 std::vector<double> ParallelPlan::extremes(const Pose& target, const double* preferred, int joint) const {
@@ -240,7 +258,7 @@ std::vector<double> ParallelPlan::extremes(const Pose& target, const double* pre
     Vector3 goal;
     directions(question, root.turn, start, goal);
     DirectionSolutions pairs;
-    pair_->solve(start, goal, 0.0, Turn(), Turn(), pairs);
+    pair_->solve(start, goal, 0.0, 0.0, 0.0, pairs);
     if (pairs.count == 0 || !(is_first ? pairs.begin()->first_free : pairs.begin()->second_free)) continue;
     // The place runs on a circle: a + b e^(+-i angle), known from a half and a quarter turn.
     std::array<Turn, 3> places;
@@ -267,7 +285,7 @@ std::array<int, 3> ParallelPlan::signsAt(const Pose& target, const double* q) co
   const Question question = questionOf(target, q);
   const auto signOfValue = [](double value) { return (value > 0.0) - (value < 0.0); };
   std::array<int, 3> signs{};
-  const Turn single = preferredTurn(question, single_axis_);
+  const Turn single = turnBy(preferredAngle(question, single_axis_));
   const Roots roots = singleRoots(question);
   double nearest = -2.0;
   for (int i = 0; i < roots.count; ++i) {
@@ -277,12 +295,12 @@ std::array<int, 3> ParallelPlan::signsAt(const Pose& target, const double* q) co
     nearest = alike;
     signs[0] = root.sign;
   }
-  signs[1] = signOfValue(plane_->elbowSine(preferredTurn(question, first_parallel_ + 1)));
+  signs[1] = signOfValue(plane_->elbowSine(turnBy(preferredAngle(question, first_parallel_ + 1))));
   Vector3 start;
   Vector3 goal;
   directions(question, single, start, goal);
   const auto i = static_cast<std::size_t>(pair_axis_);
-  const Vector3 between = turned(direction_[i], preferredTurn(question, pair_axis_).inverse(), goal);
+  const Vector3 between = turned(direction_[i], turnBy(preferredAngle(question, pair_axis_)).inverse(), goal);
   signs[2] = signOfValue(direction_[i].cross(direction_[i + 1]).dot(between));
   return signs;
 }

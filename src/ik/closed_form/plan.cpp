@@ -93,15 +93,23 @@ void ClosedFormPlan::solveSpherical(const Pose& target, const double* preferred,
   const Vector3 goal =
       is_wrist ? target * start_in_tip_ : Vector3(home_.R * (target.R.transpose() * (start_ - target.p)) + home_.p);
   PositionSolutions arms;
-  position_->solve(start_, goal, wishedOf(preferred), arms);
+  position_->solveInTurns(start_, goal, wishedOf(preferred), arms);
+  TurnBatch batch;  // Of all arms and wrists.
+  position_->addTurns(arms, batch);
   const Matrix3 M = before_ * (is_wrist ? target.R : Matrix3(target.R.transpose())) * after_;
-  OrientationSolutions turns;
-  for (const PositionSolution& arm : arms) {
+  std::array<OrientationTurns, 4> wrists;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(arms.count); ++i) {
     Matrix3 rest = M;
-    others_.undo(arm.turn, rest);
+    others_.undo(arms.solutions[i].turn, rest);
     if (!is_wrist) rest.transposeInPlace();
-    orientation_->solveInFrames(rest, preferred[spherical_first_], turns);
-    addOrientation(solutionOf(arm), turns, solutions);
+    wrists[i] = orientation_->turnsInFrames(rest, preferred[spherical_first_], batch);
+  }
+  batch.takeAngles();
+  position_->takeFrom(batch, arms);
+  OrientationSolutions turns;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(arms.count); ++i) {
+    OrientationProblem::takeFrom(batch, wrists[i], preferred[spherical_first_], turns);
+    addOrientation(solutionOf(arms.solutions[i]), turns, solutions);
   }
 }
 

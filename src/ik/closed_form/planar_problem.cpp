@@ -21,7 +21,7 @@ std::optional<PlanarProblem> PlanarProblem::compile(const Turn& first_link, cons
   return problem;
 }
 
-void PlanarProblem::solve(double x, double y, const Turn& heading, double error, const Turn& preferred,
+void PlanarProblem::solve(double x, double y, const Turn& heading, double error, double preferred,
                           PlanarSolutions& solutions) const {
   solutions.count = 0;
   const double distance = std::sqrt(x * x + y * y);
@@ -49,7 +49,7 @@ void PlanarProblem::solve(double x, double y, const Turn& heading, double error,
     const Turn reach{first_link_.c + second_link.c, first_link_.s + second_link.s};
     const Turn first = place * reach.inverse();
     const bool undirected = free || (first.c == 0.0 && first.s == 0.0);
-    solution.turns[0] = undirected ? preferred : normalized(first);
+    solution.turns[0] = undirected ? turnBy(preferred) : normalized(first);
     solution.turns[1] = elbow;
     solution.turns[2] = heading * (solution.turns[0] * elbow).inverse();
     solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solution;

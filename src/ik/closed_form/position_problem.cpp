@@ -5,7 +5,6 @@
 
 #include "position_kernels.h"
 #include "screwline/model/structure.h"
-#include "screwline/spatial/atan2.h"
 #include "screwline/spatial/rotation.h"
 
 namespace screwline {
@@ -89,27 +88,6 @@ void reverse(PositionSolutions& solutions) {
   }
 }
 
-/// Angles of all turns together. Free ones keep the preferred value, not that value modulo a full turn.
-void takeAngles(const PositionGeometry& g, PositionSolutions& solutions) {
-  std::array<double, 12> cosine{};
-  std::array<double, 12> sine{};
-  std::array<double, 12> angle;
-  std::array<double*, 12> place;
-  int count = 0;
-  for (int i = 0; i < solutions.count; ++i) {
-    PositionSolution& solution = solutions.solutions[static_cast<std::size_t>(i)];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (g.axes[g.reversed ? 2 - axis : axis].prismatic || solution.free[axis]) continue;
-      const auto k = static_cast<std::size_t>(count++);
-      cosine[k] = solution.turn[axis].c;
-      sine[k] = solution.turn[axis].s;
-      place[k] = &solution.q[axis];
-    }
-  }
-  atan2Many(sine.data(), cosine.data(), angle.data(), count);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) *place[k] = angle[k];
-}
-
 }  // namespace
 
 std::optional<PositionProblem> PositionProblem::compile(const std::array<Axis, 3>& axes, double length) {
@@ -123,8 +101,35 @@ std::optional<PositionProblem> PositionProblem::compile(const std::array<Axis, 3
   return problem;
 }
 
+void PositionProblem::addTurns(const PositionSolutions& solutions, TurnBatch& batch) const {
+  for (const PositionSolution& solution : solutions) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (isAngle(solution, axis)) batch.add(solution.turn[axis]);
+    }
+  }
+}
+
+void PositionProblem::takeFrom(const TurnBatch& batch, PositionSolutions& solutions) const {
+  std::size_t place = 0;
+  for (int i = 0; i < solutions.count; ++i) {
+    PositionSolution& solution = solutions.solutions[static_cast<std::size_t>(i)];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (isAngle(solution, axis)) solution.q[axis] = batch[place++];
+    }
+  }
+}
+
 void PositionProblem::solve(const Vector3& start, const Vector3& goal, const std::array<double, 3>& preferred,
                             PositionSolutions& solutions) const {
+  solveInTurns(start, goal, preferred, solutions);
+  TurnBatch batch;
+  addTurns(solutions, batch);
+  batch.takeAngles();
+  takeFrom(batch, solutions);
+}
+
+void PositionProblem::solveInTurns(const Vector3& start, const Vector3& goal, const std::array<double, 3>& preferred,
+                                   PositionSolutions& solutions) const {
   const PositionGeometry& g = geometry_;
   solutions.count = 0;
   const Vector3& from = g.reversed ? goal : start;
@@ -153,7 +158,6 @@ void PositionProblem::solve(const Vector3& start, const Vector3& goal, const std
       break;
   }
   if (g.reversed) reverse(solutions);
-  takeAngles(g, solutions);
 }
 
 }  // namespace screwline

@@ -1,9 +1,13 @@
 #include "screwline/ik/closed_form/turn_sequence.h"
 
+#include <cmath>
+
 #include "screwline/spatial/rotation.h"
 
 namespace screwline {
 namespace {
+
+constexpr double kParallel = 1e-15;  // Sine of a tilt that rounding may have made.
 
 /// Unit vector across both; any across the first where they are parallel. What rounding puts along the first is taken
 /// off.
@@ -55,6 +59,7 @@ TurnSequence::TurnSequence(const std::array<Axis, 3>& axes, const Matrix3& N) {
     const Vector3 normal = commonNormal(axis, next);
     offset_[i] = turnAbout(axis, before, normal);
     tilt_[i] = turnAbout(normal, axis, next);
+    parallel_[i] = tilt_[i].c > 0.0 && std::abs(tilt_[i].s) <= kParallel;
     before = normal;
   }
   last_ = turnAbout(N.col(2), before, N.col(0));
@@ -64,11 +69,15 @@ void TurnSequence::undo(const std::array<Turn, 3>& turns, Matrix3& M) const {
   Row x(M, 0);
   Row y(M, 1);
   Row z(M, 2);
+  Turn about_z;  // What has not been taken off yet: turns about parallel axes add up.
   for (std::size_t i = 0; i < 3; ++i) {
-    mixRows(turns[i] * offset_[i], x, y);
+    about_z = about_z * turns[i] * offset_[i];
+    if (parallel_[i]) continue;
+    mixRows(about_z, x, y);
     mixRows(tilt_[i], y, z);
+    about_z = Turn();
   }
-  mixRows(last_, x, y);
+  mixRows(about_z * last_, x, y);
   x.store(0, M);
   y.store(1, M);
   z.store(2, M);

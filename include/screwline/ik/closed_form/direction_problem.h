@@ -37,9 +37,9 @@ class DirectionProblem {
   static std::optional<DirectionProblem> compile(const Vector3& first, const Vector3& second);
 
   /// @param error [rad] of start and goal, beyond rounding.
-  /// @param preferred_first, preferred_second turns where they are free.
-  void solve(const Vector3& start, const Vector3& goal, double error, const Turn& preferred_first,
-             const Turn& preferred_second, DirectionSolutions& solutions) const;
+  /// @param preferred_first, preferred_second [rad] turns where they are free.
+  void solve(const Vector3& start, const Vector3& goal, double error, double preferred_first, double preferred_second,
+             DirectionSolutions& solutions) const;
 
  private:
   Vector3 first_ = Vector3::UnitZ();

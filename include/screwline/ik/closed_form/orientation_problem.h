@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "screwline/model/joint.h"
-#include "screwline/spatial/turn.h"
+#include "screwline/spatial/turn_batch.h"
 
 namespace screwline {
 
@@ -24,6 +24,15 @@ struct OrientationSolutions {
   const OrientationSolution* end() const { return solutions.data() + count; }
 };
 
+/// The same, its angles still to be taken: their turns are in a batch.
+struct OrientationTurns {
+  std::size_t place = 0;     ///< Of the first turn; the others follow.
+  int count = 0;             ///< Solutions.
+  bool free = false;         ///< As OrientationSolution.
+  bool is_double = false;    ///< Two solutions meet in one.
+  bool half_turned = false;  ///< The second has axes 1 and 3 half a turn on: of its turns only the middle one is there.
+};
+
 /// R1(q1) R2(q2) R3(q3) = Q for three revolute axes of any directions (neighbours not parallel): what axis 1 keeps of
 /// axis 3's image gives the middle angle, the others follow (Paden's second subproblem; Craig, ch. 4.7). Seen from a
 /// frame N on axis 1 and a frame F on axis 3, N^T Q F = Rz(q1) Ry(a) Rz(u) Ry(-b) Rz(q3), with a and b the angles
@@ -35,11 +44,17 @@ class OrientationProblem {
 
   /// @param preferred value of q1 where it turns out free.
   void solve(const Matrix3& Q, double preferred, OrientationSolutions& solutions) const {
-    solveInFrames(near_.transpose() * Q * far_, preferred, solutions);
+    TurnBatch batch;
+    const OrientationTurns turns = turnsInFrames(near_.transpose() * Q * far_, preferred, batch);
+    batch.takeAngles();
+    takeFrom(batch, turns, preferred, solutions);
   }
 
-  /// The same for M = N^T Q F.
-  void solveInFrames(const Matrix3& M, double preferred, OrientationSolutions& solutions) const;
+  /// The turns of all solutions for M = N^T Q F, added to the batch (6 at most); takeFrom() makes solutions of them
+  /// once the batch has taken its angles.
+  OrientationTurns turnsInFrames(const Matrix3& M, double preferred, TurnBatch& batch) const;
+  static void takeFrom(const TurnBatch& batch, const OrientationTurns& turns, double preferred,
+                       OrientationSolutions& solutions);
 
   const Matrix3& nearFrame() const { return near_; }  ///< N; its z is axis 1.
   const Matrix3& farFrame() const { return far_; }    ///< F; its z is axis 3.
@@ -51,7 +66,7 @@ class OrientationProblem {
     bool is_double = false;
   };
   Middle middleOf(double cosine, double sine) const;
-  void solveAcross(const Matrix3& M, double sine, OrientationSolutions& solutions) const;
+  void addAcross(const Matrix3& M, double sine, TurnBatch& batch) const;
 
   Matrix3 near_;
   Matrix3 far_;

@@ -55,6 +55,7 @@ class ParallelPlan {
   struct Question;
   struct Root;
   struct Roots;
+  struct Answer;
 
   bool compileOrder(const SerialChain& chain, bool reversed, int first_parallel, Single single);
   bool reproduces(const SerialChain& chain) const;
@@ -63,15 +64,15 @@ class ParallelPlan {
 
   Question questionOf(const Pose& target, const double* preferred) const;
   Roots singleRoots(const Question& question) const;
-  void solvePair(const Question& question, const Root& root, ParallelSolutions& solutions) const;
+  void solvePair(const Question& question, const Root& root, Answer& answer) const;
   void placeOf(const Question& question, const Turn& single, const Turn& first, const Turn& second, Turn& place,
                Turn& heading) const;
   bool solvePlane(const Question& question, const Root& root, const DirectionSolution& pair, double error,
-                  ParallelSolutions& solutions) const;
-  bool solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair,
-                    ParallelSolutions& solutions) const;
+                  Answer& answer) const;
+  void takeAngles(const Question& question, Answer& answer) const;
+  bool solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair, Answer& answer) const;
   void directions(const Question& question, const Turn& single, Vector3& start, Vector3& goal) const;
-  Turn preferredTurn(const Question& question, int axis) const;
+  double preferredAngle(const Question& question, int axis) const;
   int jointOf(int axis) const { return reversed_ ? 5 - axis : axis; }
   unsigned bitOf(int axis) const { return 1U << jointOf(axis); }
 

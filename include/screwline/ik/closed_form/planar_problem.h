@@ -34,8 +34,8 @@ class PlanarProblem {
 
   /// @param x, y [m] place of axis 3 from axis 1.
   /// @param error [m] of the place, beyond rounding.
-  void solve(double x, double y, const Turn& heading, double error, const Turn& preferred,
-             PlanarSolutions& solutions) const;
+  /// @param preferred [rad] first turn where it is free.
+  void solve(double x, double y, const Turn& heading, double error, double preferred, PlanarSolutions& solutions) const;
 
   /// Distances of axis 3 from axis 1 that the links reach.
   double least() const { return std::abs(first_length_ - second_length_); }

@@ -6,7 +6,7 @@
 
 #include "screwline/ik/closed_form/roots.h"
 #include "screwline/model/joint.h"
-#include "screwline/spatial/turn.h"
+#include "screwline/spatial/turn_batch.h"
 
 namespace screwline {
 
@@ -79,10 +79,23 @@ class PositionProblem {
   void solve(const Vector3& start, const Vector3& goal, const std::array<double, 3>& preferred,
              PositionSolutions& solutions) const;
 
+  /// The same in turns: `q` holds displacements of slides and values of free axes alone, until takeFrom() has the
+  /// angles of addTurns().
+  void solveInTurns(const Vector3& start, const Vector3& goal, const std::array<double, 3>& preferred,
+                    PositionSolutions& solutions) const;
+  /// At most 12. @pre the batch is empty.
+  void addTurns(const PositionSolutions& solutions, TurnBatch& batch) const;
+  void takeFrom(const TurnBatch& batch, PositionSolutions& solutions) const;
+
   PositionKind kind() const { return geometry_.kind; }
   const PositionGeometry& geometry() const { return geometry_; }
 
  private:
+  /// Whether q is the angle of the turn: a free axis keeps the preferred value, not that value modulo a full turn.
+  bool isAngle(const PositionSolution& solution, std::size_t axis) const {
+    return !geometry_.axes[geometry_.reversed ? 2 - axis : axis].prismatic && !solution.free[axis];
+  }
+
   PositionGeometry geometry_;
 };
 

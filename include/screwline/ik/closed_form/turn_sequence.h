@@ -22,9 +22,10 @@ class TurnSequence {
 
  private:
   Matrix3 base_ = Matrix3::Identity();
-  std::array<Turn, 3> offset_;  ///< From the common normal with the axis before to the one with the axis after.
-  std::array<Turn, 3> tilt_;    ///< To the next axis, about their common normal.
-  Turn last_;                   ///< From the last common normal to N's x.
+  std::array<Turn, 3> offset_;      ///< From the common normal with the axis before to the one with the axis after.
+  std::array<Turn, 3> tilt_;        ///< To the next axis, about their common normal.
+  std::array<bool, 3> parallel_{};  ///< The next axis is: it has no tilt.
+  Turn last_;                       ///< From the last common normal to N's x.
 };
 
 }  // namespace screwline

@@ -1,0 +1,153 @@
+// How motions are sampled: the kernels against polynomials evaluated one by one, the piece lookup against a search from
+// the front.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "screwline/trajectory/scaling_table.h"
+
+namespace screwline {
+namespace {
+
+constexpr unsigned kSeed = 20261127;
+constexpr double kRoom = 7.0;  // Behind the values of n joints nothing is written: it stays as it is.
+
+double uniform(std::mt19937& random, double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random);
+}
+
+/// Four arrays of n values, and one more value in each.
+struct Samples {
+  explicit Samples(int joints) : values(4, std::vector<double>(static_cast<std::size_t>(joints) + 1, kRoom)) {}
+  std::vector<std::vector<double>> values;  ///< Position to jerk.
+};
+
+PiecewisePolynomial randomPieces(std::mt19937& random, int joints, int degree, std::vector<double> breaks) {
+  PiecewisePolynomial pieces(joints, degree, std::move(breaks), 0);
+  for (double& c : pieces.coefficients) c = uniform(random, -1.0, 1.0);
+  return pieces;
+}
+
+/// The derivative of `order` by the piece's own x.
+double derivativeAt(Polynomial polynomial, int order, double x) {
+  for (int k = 0; k < order; ++k) polynomial = polynomial.derivative();
+  return polynomial(x);
+}
+
+void expectSamples(const Samples& samples, const std::vector<std::vector<double>>& expected, const std::string& what) {
+  for (std::size_t order = 0; order < 4; ++order) {
+    const std::vector<double>& values = samples.values[order];
+    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+      EXPECT_NEAR(values[i], expected[order][i], 1e-12 * (1.0 + std::abs(expected[order][i])))
+          << what << ", order " << order << ", joint " << i;
+    }
+    EXPECT_EQ(values.back(), kRoom) << what << ": written behind the last joint, order " << order;
+  }
+}
+
+TEST(SampleKernels, PiecesAreTheirPolynomials) {
+  std::mt19937 random(kSeed);
+  for (const SampleKernels* kernels : {&sampleKernels(), &plainSampleKernels()}) {
+    for (int joints = 1; joints <= 13; ++joints) {
+      for (int degree = 0; degree <= Polynomial::kMaxDegree; ++degree) {
+        const PiecewisePolynomial pieces = randomPieces(random, joints, degree, {0.0, 1.0});
+        const double x = uniform(random, 0.0, 1.0);
+        const double rate = uniform(random, 0.1, 3.0);
+        std::vector<std::vector<double>> expected(4);
+        for (int order = 0; order < 4; ++order) {
+          for (int joint = 0; joint < joints; ++joint) {
+            const double value = derivativeAt(pieces.piece(0, joint), order, x);
+            expected[static_cast<std::size_t>(order)].push_back(value * std::pow(rate, order));
+          }
+        }
+        Samples piece(joints);
+        Samples segment(joints);
+        const auto outputOf = [](Samples& samples) {
+          auto& v = samples.values;
+          return SampleOutput{v[0].data(), v[1].data(), v[2].data(), v[3].data()};
+        };
+        const SampleOutput to = outputOf(piece);
+        kernels->piece(pieces.coefficients.data(), {joints, degree}, x, rate, to.position, to.velocity, to.acceleration,
+                       to.jerk);
+        kernels->segment({pieces.coefficients.data(), joints, degree}, x,
+                         {rate, 0.0, rate * rate, 0.0, 0.0, rate * rate * rate}, outputOf(segment));
+        const std::string what = std::to_string(joints) + " joints, degree " + std::to_string(degree);
+        expectSamples(piece, expected, "piece of " + what);
+        expectSamples(segment, expected, "segment of " + what);
+      }
+    }
+  }
+}
+
+TEST(SampleKernels, LinesFollowTheScaling) {
+  std::mt19937 random(kSeed + 1);
+  for (const SampleKernels* kernels : {&sampleKernels(), &plainSampleKernels()}) {
+    for (int joints = 1; joints <= 13; ++joints) {
+      for (int degree = 0; degree <= Polynomial::kMaxDegree; ++degree) {
+        const std::vector<double> breaks{0.0, 0.2, 0.7, 1.0};
+        const PiecewisePolynomial pieces = randomPieces(random, 1, degree, breaks);
+        const ScalingTable table(pieces, 2.0);
+        DeltaLine line{joints, std::vector<double>(2 * static_cast<std::size_t>(joints))};
+        for (double& value : line.values) value = uniform(random, -3.0, 3.0);
+        for (double tau : {0.0, uniform(random, 0.0, 0.2), 0.2, uniform(random, 0.2, 0.7), 0.7, 1.0}) {
+          const std::size_t k = tau < 0.2 ? 0 : tau < 0.7 ? 1 : 2;
+          const double length = pieces.length(k);
+          std::vector<std::vector<double>> expected(4);
+          for (int order = 0; order < 4; ++order) {
+            const double by_x = derivativeAt(pieces.piece(k, 0), order, (tau - breaks[k]) / length);
+            const double s = by_x / std::pow(2.0 * length, order);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(joints); ++i) {
+              const double start = order == 0 ? line.values[i] : 0.0;
+              expected[static_cast<std::size_t>(order)].push_back(
+                  start + s * line.values[i + static_cast<std::size_t>(joints)]);
+            }
+          }
+          Samples samples(joints);
+          auto& v = samples.values;
+          (table.hasLongRows() ? kernels->long_delta : kernels->short_delta)(table, 2.0 * tau, line, v[0].data(),
+                                                                             v[1].data(), v[2].data(), v[3].data());
+          expectSamples(
+              samples, expected,
+              std::to_string(joints) + " joints, degree " + std::to_string(degree) + ", tau " + std::to_string(tau));
+        }
+      }
+    }
+  }
+}
+
+TEST(BreakTable, FindsWhatASearchFromTheFrontFinds) {
+  std::mt19937 random(kSeed + 2);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<double> breaks{0.0};
+    const int segments = 1 + static_cast<int>(random() % 40);
+    // Pieces of very different length, some of none.
+    for (int k = 0; k < segments; ++k)
+      breaks.push_back(breaks.back() + (k > 0 && random() % 5 == 0 ? 0.0 : std::pow(10.0, uniform(random, -6.0, 1.0))));
+    const BreakTable table(breaks);
+    std::vector<double> instants = breaks;
+    for (int k = 0; k < 60; ++k) instants.push_back(uniform(random, -0.1, 1.1) * breaks.back());
+    for (double t : instants) {
+      std::size_t expected = 0;
+      while (expected + 1 < static_cast<std::size_t>(segments) && breaks[expected + 1] <= t) ++expected;
+      EXPECT_EQ(table.find(t), expected) << "seed " << kSeed + 2 << ", trial " << trial << ", t " << t;
+    }
+    EXPECT_LT(table.find(std::numeric_limits<double>::quiet_NaN()), static_cast<std::size_t>(segments));
+  }
+}
+
+TEST(InverseLength, ReachesOneAtTheEndAndIsZeroForNoLength) {
+  std::mt19937 random(kSeed + 3);
+  for (int trial = 0; trial < 10000; ++trial) {
+    const double length = std::pow(10.0, uniform(random, -12.0, 12.0));
+    const double product = length * inverseLengthOf(length);
+    EXPECT_GE(product, 1.0) << length;
+    EXPECT_LE(product, 1.0 + 4e-16) << length;
+  }
+  EXPECT_EQ(inverseLengthOf(0.0), 0.0);
+  EXPECT_EQ(inverseLengthOf(1e-70), 0.0);
+}
+
+}  // namespace
+}  // namespace screwline
