@@ -109,6 +109,13 @@ std::vector<Candidate> CompletedMethod::wholeCandidates(const Pose& target, cons
   return rootsOf(*algebraic_, target, complete);
 }
 
+std::optional<InverseOutline> CompletedMethod::outline() const {
+  if (rejects_ || completed_.turn != completed_.own || (!plan_ && !parallel_)) return std::nullopt;
+  InverseOutline outline = plan_ ? plan_->plan.outline() : parallel_->plan.outline();
+  outline.tool_turn = task_.pointingAxis();
+  return outline;
+}
+
 bool CompletedMethod::isLocked(const VectorX& q) const {
   for (int i = 0; i < completed_.locked; ++i) {
     if (std::abs(wrapAngle(q[completed_.own + i])) > kAlmostLocked) return false;
