@@ -110,9 +110,10 @@ std::vector<Candidate> CompletedMethod::wholeCandidates(const Pose& target, cons
 }
 
 std::optional<InverseOutline> CompletedMethod::outline() const {
-  if (rejects_ || completed_.turn != completed_.own || (!plan_ && !parallel_)) return std::nullopt;
+  if (rejects_ || completed_.turn < 0 || (!plan_ && !parallel_)) return std::nullopt;
   InverseOutline outline = plan_ ? plan_->plan.outline() : parallel_->plan.outline();
-  outline.tool_turn = task_.pointingAxis();
+  (completed_.turnsByItself() ? outline.open_joint : outline.tool_turn) =
+      completed_.turnsByItself() ? completed_.turn : task_.pointingAxis();
   return outline;
 }
 

@@ -31,7 +31,7 @@ class CompletedMethod {
 
   const std::string& method() const { return method_; }
   const std::vector<BranchPart>* branchParts() const;
-  /// Of the closed form, where the tool's turn is all that is added; else empty.
+  /// Of the closed form, where the tool's turn is all that is added, if anything; else empty.
   std::optional<InverseOutline> outline() const;
 
  private:

@@ -304,14 +304,22 @@ class HeaderMaker {
   void writeSolution(const std::vector<std::string>& free) {
     std::string values;
     std::string bits;
+    const auto append = [](std::string& list, const char* between, const std::string& one) {
+      list += (list.empty() ? "" : between) + one;
+    };
     for (int i = 0; i < chain_.size(); ++i) {
       const auto k = static_cast<std::size_t>(i);
+      const std::string bit = std::to_string(1U << k) + "U";
+      if (i == inverse_->open_joint) {
+        append(values, ", ", "preferred[" + std::to_string(i) + "]");
+        append(bits, " | ", bit);
+        continue;
+      }
       const std::string name = writer_.name(i);
       std::string value = inverse_->revolute[k] ? "wrapped(" + name + ")" : name;
       if (inverse_->revolute[k] && !free[k].empty()) value = free[k] + " ? " + name + " : " + value;
-      values += (values.empty() ? "" : ", ") + value;
-      if (!free[k].empty())
-        bits += (bits.empty() ? "" : " | ") + ("(" + free[k] + " ? " + std::to_string(1U << k) + "U : 0U)");
+      append(values, ", ", value);
+      if (!free[k].empty()) append(bits, " | ", "(" + free[k] + " ? " + bit + " : 0U)");
     }
     line("add({{" + values + "}, " + (bits.empty() ? "0U" : bits) + "}, solutions);");
   }

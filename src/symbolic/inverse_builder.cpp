@@ -44,6 +44,7 @@ InverseBuilder::InverseBuilder(const SerialChain& chain, const InverseOutline& o
     const Axis& line = chain.axes()[static_cast<std::size_t>(i)];
     axes_.push_back({i, i + 1, identity(), i, line.prismatic, 1, line});
   }
+  open_joint_ = outline.open_joint;
   if (outline.given >= 0) leaveOutGiven(outline.given);
   if (outline.tool_turn >= 0) addToolTurn(outline.tool_turn);
 }
@@ -79,6 +80,12 @@ void InverseBuilder::addToolTurn(int tool_axis) {
   line.direction = chain_.home().R.col(tool_axis);
   line.point = chain_.home().p;
   axes_.push_back({size(), size() + 1, identity(), heading_, false, 1, line});
+}
+
+std::string InverseBuilder::marksOf(const InverseAxis& axis) const {
+  return std::string("0, 1 and 2 mark the parts without and with the factors ") +
+         (axis.slides ? "d and d^2" : "cos and sin") + " of " + namesOf({axis.place}) +
+         "; short parts are put in at once";
 }
 
 void InverseBuilder::takeOff(bool tool) {
@@ -225,16 +232,15 @@ std::string InverseBuilder::suffix(const InverseAxis& axis) const {
 }
 
 std::string InverseBuilder::namesOf(const std::vector<int>& places) const {
+  if (places.front() < 0) return "the open row";
   std::vector<int> numbers;
   for (const int place : places) numbers.push_back(axes_[static_cast<std::size_t>(place)].symbol + 1);
   std::sort(numbers.begin(), numbers.end());
   const bool tool_turns = numbers.back() > exact_.joints;
   if (tool_turns) numbers.pop_back();
-  std::string names = numbers.size() == 1 ? "joint " : "joints ";
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const bool last = i + 1 == numbers.size() && !tool_turns;
-    names += (i == 0 ? "" : last ? " and " : ", ") + std::to_string(numbers[i]);
-  }
+  if (numbers.size() == 3) return "joints " + std::to_string(numbers[0]) + " to " + std::to_string(numbers[2]);
+  std::string names = std::string(numbers.size() == 1 ? "joint " : "joints ") + std::to_string(numbers[0]);
+  if (numbers.size() == 2) names += (tool_turns ? ", " : " and ") + std::to_string(numbers[1]);
   return tool_turns ? names + " and the tool's turn" : names;
 }
 

@@ -44,7 +44,7 @@ class InverseBuilder {
   TrigPolynomial symbol(int id) const { return TrigPolynomial::scalar(ring(), id); }
 
   int size() const { return static_cast<int>(axes_.size()); }
-  std::string namesOf(const std::vector<int>& places) const;  ///< "joints 5 and 6"
+  std::string namesOf(const std::vector<int>& places) const;  ///< "joints 5 and 6"; one place may be -1.
   InverseAxis axis(int place, int sense) const;
   /// The slide along base axis `row` that a missing row of the task allows; `number` tells two of them apart.
   InverseAxis openRow(int row, int number) const;
@@ -101,6 +101,7 @@ class InverseBuilder {
     bool fixed = true;  ///< a and b have neither joints nor inputs in them.
   };
   /// The form of a polynomial, its parts on lines called `letter` with 0, 1, 2. Empty where it has higher terms.
+  std::string marksOf(const InverseAxis& axis) const;  ///< What 0, 1, 2 mean, for people.
   std::optional<Form> formOf(const InverseAxis& axis, const std::string& letter, const TrigPolynomial& polynomial);
   Form named(const std::string& letter, const Form& form);
   /// The form again, with the joint in it.
@@ -144,6 +145,7 @@ class InverseBuilder {
   ExactChain exact_;
   int first_ = 0;   ///< Row of the table on which axis 0 lies.
   int given_ = -1;  ///< Joint.
+  int open_joint_ = -1;
   std::vector<InverseAxis> axes_;
   std::vector<TrigPose> steps_;
   TrigPose base_;

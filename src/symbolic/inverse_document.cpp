@@ -124,6 +124,9 @@ std::string inverseSection(const InverseFormulas& formulas, DocumentFormat forma
     }
     writeRemarks(formulas, step, writer, remarks);
   }
+  if (formulas.open_joint >= 0)
+    remarks.push_back(writer.formula(Formula::symbol(formulas.open_joint)) +
+                      writer.text(" may take any value: it only turns the tool about its direction"));
   if (!remarks.empty()) {
     writer.paragraph(writer.text("Conditions and degenerate cases:"));
     writer.list(remarks);

@@ -93,9 +93,10 @@ class Branches {
   }
 
   void keep(unsigned free) {
+    if (formulas_.open_joint >= 0) free |= 1U << formulas_.open_joint;
     InverseSolution solution{VectorX(formulas_.joints), free};
     for (int i = 0; i < formulas_.joints; ++i) {
-      const double value = values_[static_cast<std::size_t>(i)];
+      const double value = i == formulas_.open_joint ? preferred_[i] : values_[static_cast<std::size_t>(i)];
       const bool turns = formulas_.revolute[static_cast<std::size_t>(i)] && (free >> i & 1U) == 0U;
       solution.q[i] = turns ? wrapAngle(value) : value;
     }
@@ -122,6 +123,8 @@ double taskDeviation(const SerialChain& chain, const Task& task, const Pose& tar
   for (int row = 0; row < 6; ++row) {
     if (task.contains(row)) worst = std::max(worst, std::abs(error[row]));
   }
+  const int pointing = task.pointingAxis();
+  if (pointing >= 0) worst = std::max(worst, X.R.col(pointing).cross(target.R.col(pointing)).norm());
   return worst;
 }
 
@@ -153,7 +156,10 @@ InverseCheck checkInverse(const InverseFormulas& formulas, const SerialChain& ch
     if (!isClear(chain, task, formulas.given, q)) continue;
     const Pose target = forwardKinematics(chain, q);
     const std::vector<VectorX> expected = solver(target, q);
-    const std::vector<InverseSolution> found = evaluate(formulas, target, q);
+    VectorX preferred = q;
+    const int open = formulas.open_joint;
+    if (open >= 0 && !expected.empty()) preferred[open] = expected.front()[open];
+    const std::vector<InverseSolution> found = evaluate(formulas, target, preferred);
     ++check.poses;
     check.solutions += static_cast<int>(expected.size());
     for (const VectorX& solution : expected) {

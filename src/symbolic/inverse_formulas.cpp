@@ -121,7 +121,7 @@ InverseDerivation deriveInverse(const SerialChain& chain, const Task& task, cons
                                 const SymbolicOptions& options, const Progress& progress) {
   InverseDerivation derivation;
   if (!method.outline) {
-    derivation.reason = "no formulas: the solver has no closed form for this geometry and task";
+    derivation.reason = "no formulas: the solver has no closed form for this geometry and all rows of the task";
     return derivation;
   }
   Progress limited = progress;

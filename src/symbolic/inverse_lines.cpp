@@ -135,7 +135,7 @@ void InverseBuilder::setJoint(int symbol, const Formula& value, const std::vecto
 InverseFormulas InverseBuilder::finished() {
   std::set<int> needed;
   for (const InverseAxis& axis : axes_) {
-    if (axis.symbol < exact_.joints) needed.insert(axis.symbol);
+    if (axis.symbol < exact_.joints && axis.symbol != open_joint_) needed.insert(axis.symbol);
   }
   std::vector<InverseStep> kept;
   for (std::size_t i = lines_.size(); i > 0; --i) {
@@ -153,6 +153,7 @@ InverseFormulas InverseBuilder::finished() {
   result.joints = exact_.joints;
   result.target = inputs_;
   result.given = given_;
+  result.open_joint = open_joint_;
   if (!axes_.empty() && axes_.back().symbol >= exact_.joints) result.tool_turn = axes_.back().symbol;
   result.steps = std::move(kept);
   for (bool slides : exact_.prismatic) result.revolute.push_back(!slides);

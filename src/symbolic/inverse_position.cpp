@@ -172,10 +172,17 @@ class PositionWriter {
 
   /// The same where the third joint turns: a quartic.
   bool solveAcross(const TrigMatrix& across) {
+    builder_.say(
+        "What " + builder_.namesOf({axes_[2].place}) +
+        " carries is brought to the goal's height by the slide; then it lies at (u, v) from the first axis, both times "
+        "the cosine between slide and axis. " +
+        builder_.marksOf(axes_[2]) + ":");
     const auto u = builder_.formOf(axes_[2], "u", across(0, 0));
     const auto v = builder_.formOf(axes_[2], "v", across(1, 0));
     if (!u || !v) return false;
     const TrigPolynomial& along = K1_.R(2, 2);
+    builder_.say("The distance from that axis is the goal's: a quartic gives " + builder_.namesOf({axes_[2].place}) +
+                 ":");
     const Formula radius = builder_.formula(along * along) * builder_.formula(squareAcross(g_));
     builder_.solveSquares(axes_[2], {*u, *v}, {radius, Formula(), Formula()});
     return true;

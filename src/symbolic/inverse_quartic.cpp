@@ -13,8 +13,23 @@ TrigPolynomial dot(const TrigMatrix& a, const TrigMatrix& b) {
   return a(0, 0) * b(0, 0) + a(1, 0) * b(1, 0) + a(2, 0) * b(2, 0);
 }
 
+bool hasNumber(const Formula& formula) {
+  return formula.kind() == Formula::Kind::kProduct && formula.parts().front().kind() == Formula::Kind::kNumber;
+}
+
+/// A leading number is squared by itself: (-x)^2 is x^2.
 Formula square(const Formula& formula) {
-  return formula.kind() == Formula::Kind::kNumber ? formula * formula : Formula::power(formula, 2);
+  if (formula.kind() == Formula::Kind::kNumber) return formula * formula;
+  if (!hasNumber(formula)) return Formula::power(formula, 2);
+  const Formula& number = formula.parts().front();
+  return number * number * Formula::power(formula / number, 2);
+}
+
+/// Of a length; 2 l over twice a is l over a.
+Formula overTwice(const Formula& formula, const Formula& length) {
+  const Formula two = Formula::number(2);
+  const bool is_even = hasNumber(formula) && formula.parts().front().numerator() % 2 == 0;
+  return is_even ? formula / two / length : formula / (two * length);
 }
 
 bool isShort(const Formula& formula) {
@@ -67,8 +82,8 @@ void InverseBuilder::solveSquares(const InverseAxis& axis, const std::vector<For
   };
   const Formula two = Formula::number(2);
   const Formula kk = sum([](const Form& f) { return square(f.k); });
-  const Formula aa = sum([](const Form& f) { return square(f.a); });
-  const Formula bb = sum([](const Form& f) { return square(f.b); });
+  const Formula both = sum([](const Form& f) { return square(f.a) + square(f.b); });
+  const Formula difference = sum([](const Form& f) { return square(f.a) - square(f.b); });
   const Formula ka = sum([](const Form& f) { return f.k * f.a; });
   const Formula kb = sum([](const Form& f) { return f.k * f.b; });
   const Formula ab = sum([](const Form& f) { return f.a * f.b; });
@@ -76,11 +91,13 @@ void InverseBuilder::solveSquares(const InverseAxis& axis, const std::vector<For
   step.symbol = axis.symbol;
   const std::string j = suffix(axis);
   if (axis.slides) {
-    const Formula terms[5] = {kk - rest.k, two * ka - rest.a, aa + two * kb - rest.b, two * ab, bb};
+    const Formula terms[5] = {kk - rest.k, two * ka - rest.a,
+                              sum([](const Form& f) { return square(f.a); }) + two * kb - rest.b, two * ab,
+                              sum([](const Form& f) { return square(f.b); })};
     for (int i = 0; i < 5; ++i) step.equation.push_back(briefly("E" + std::to_string(i), terms[i]));
   } else {
-    step.equation = {briefly("K" + j, kk - rest.k + half(aa + bb)), briefly("A" + j, two * ka - rest.a),
-                     briefly("B" + j, two * kb - rest.b), briefly("C" + j, half(aa - bb)), briefly("D" + j, ab)};
+    step.equation = {briefly("K" + j, kk - rest.k + half(both)), briefly("A" + j, two * ka - rest.a),
+                     briefly("B" + j, two * kb - rest.b), briefly("C" + j, half(difference)), briefly("D" + j, ab)};
     step.tangent = addSymbol("t" + j);
   }
   const auto isFixed = [](const Form& form) { return form.fixed; };
@@ -92,27 +109,27 @@ bool writeSkewTurns(InverseBuilder& builder, const std::array<InverseAxis, 3>& a
                     const TrigMatrix& carried, const TrigMatrix& goal) {
   using Form = InverseBuilder::Form;
   if (!builder.isZero(K1.R(2, 0)) || !builder.isZero(K1.p(1, 0)) || !builder.isZero(K1.p(2, 0))) return false;
-  const std::string joint = axes[2].place < 0 ? "the open row" : builder.namesOf({axes[2].place});
-  builder.say("The point that " + joint +
-              " carries: its height h along the second axis, and the square k of its "
-              "distance from where the common normal of the first two axes meets that one,");
+  const auto nameOf = [&](std::size_t i) { return builder.namesOf({axes[i].place}); };
+  builder.say("The point that " + nameOf(2) + " carries lies at the height h along the axis of " + nameOf(1) +
+              "; k is the square of its distance from where the common normal with the axis of " + nameOf(0) +
+              " meets that axis. " + builder.marksOf(axes[2]) + ":");
   const std::optional<Form> h = builder.formOf(axes[2], "h", carried(2, 0));
   const std::optional<Form> k = builder.formOf(axes[2], "k", dot(carried, carried));
   if (!h || !k) return false;
-  const Formula twice = builder.formula(K1.p(0, 0).scaled(2));
+  const Formula offset = builder.formula(K1.p(0, 0));
   const Formula reach = builder.inputsFirst(dot(goal, goal) - K1.p(0, 0) * K1.p(0, 0));
   const Formula sine = builder.formula(K1.R(2, 1));
   const Formula cosine = builder.formula(K1.R(2, 2));
   const Formula height = builder.formula(goal(2, 0));
-  builder.say(
-      "Where it has to come to, u along that normal and v across it, by its distance from the first axis' foot "
-      "and its height along the first axis:");
-  const Form u = builder.named("u", {(reach - k->k) / twice, -k->a / twice, -k->b / twice, k->fixed});
+  builder.say("Its place u along that normal, by its distance from " + nameOf(0) +
+              "'s end of it, and v across it, by its height along the axis of " + nameOf(0) + ":");
+  const Form u = builder.named(
+      "u", {overTwice(reach - k->k, offset), overTwice(-k->a, offset), overTwice(-k->b, offset), k->fixed});
   const Form v =
       builder.named("v", {(height - cosine * h->k) / sine, -(cosine * h->a) / sine, -(cosine * h->b) / sine, h->fixed});
-  builder.say("As u^2 + v^2 + h^2 = k, a quartic gives " + joint + ":");
+  builder.say("As u^2 + v^2 + h^2 = k, a quartic gives " + nameOf(2) + ":");
   builder.solveSquares(axes[2], {u, v, *h}, *k);
-  builder.say("The second joint brings the point there, the first to its goal:");
+  builder.say("The place and " + nameOf(2) + " give " + nameOf(1) + ", the goal gives " + nameOf(0) + ":");
   const TrigPolynomial x = builder.named("u", builder.formula(axes[2], u));
   const TrigPolynomial y = builder.named("v", builder.formula(axes[2], v));
   builder.turnBetween(axes[1], carried(0, 0), carried(1, 0), x, y);

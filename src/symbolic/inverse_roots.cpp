@@ -57,8 +57,12 @@ bool polish(const Function& function, double& x) {
 }  // namespace
 
 std::vector<double> zeroAngles(const std::array<double, 5>& coefficients) {
-  const auto [k, a, b, c, d] = coefficients;
-  const auto function = [k = k, a = a, b = b, c = c, d = d](double x) {
+  const double k = coefficients[0];
+  const double a = coefficients[1];
+  const double b = coefficients[2];
+  const double c = coefficients[3];
+  const double d = coefficients[4];
+  const auto function = [=](double x) {
     const double c1 = std::cos(x);
     const double s1 = std::sin(x);
     const double c2 = std::cos(2.0 * x);

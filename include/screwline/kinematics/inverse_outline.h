@@ -41,6 +41,7 @@ struct InverseOutline {
   /// 0, 1, 2: the axis x, y, z of the tool about which the task lets it turn: one joint more, behind the others. -1:
   /// none.
   int tool_turn = -1;
+  int open_joint = -1;  ///< The joint that turns the tool so and does nothing else: any value does. -1: none.
 };
 
 /// All solutions of a pose, limits not looked at. Where the value of a joint is given it is that in `given` (n values).

@@ -35,9 +35,9 @@ struct InverseStep {
 struct InverseFormulas {
   SymbolTable symbols;  ///< The chain's first, with the numbers of SymbolicChain; joints are 0..joints-1.
   int joints = 0;
-  int given = -1;  ///< Joint whose value is given: the others are solved for; -1: none.
-  int tool_turn =
-      -1;  ///< Symbol for the tool's turn where the task leaves it open, the target's is as good as any other.
+  int given = -1;       ///< Joint whose value is given: the others are solved for; -1: none.
+  int open_joint = -1;  ///< Joint that may always take any value; -1: none.
+  int tool_turn = -1;   ///< Symbol for the tool's turn about the direction that the task asks for; -1: there is none.
   std::array<int, 12> target{};  ///< Symbols of px, py, pz, then r11, r12, ... r33: the tip in the base link.
   std::vector<InverseStep> steps;
   std::vector<bool> revolute;
