@@ -246,6 +246,21 @@ TEST(SymbolicInverse, SevenJointsHaveTheirParameterGiven) {
   EXPECT_NE(text.find("theta7 is given"), std::string::npos) << text;
 }
 
+/// One joint more in front of, or behind, arms whose third joint takes a quartic.
+TEST(SymbolicInverse, FormulasOfSevenJointsAnyhowGiveTheSolversSolutions) {
+  for (const int structure : {4, 5, 7}) {
+    for (const bool in_front : {true, false}) {
+      test::ArmMaker maker(static_cast<unsigned>(structure));
+      const test::ArmMaker::Arm arm = test::QuarticArmMaker(330).make(structure);
+      SCOPED_TRACE(arm.structure + (in_front ? ", a joint in front" : ", a joint behind"));
+      std::vector<Axis> axes = arm.chain.axes();
+      axes.insert(in_front ? axes.begin() : axes.end(), test::ArmMaker::turn(maker.direction(), maker.vector(0.8)));
+      const SerialChain chain = test::ArmMaker::chain(axes, arm.chain.home(), maker.pose());
+      expectFormulas(chain, Task());
+    }
+  }
+}
+
 /// The checker sees a solution that is missing, one too much, and a formula of another robot.
 TEST(SymbolicInverse, TheCheckCanFail) {
   const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "puma560");
