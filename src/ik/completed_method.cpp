@@ -109,6 +109,14 @@ std::vector<Candidate> CompletedMethod::wholeCandidates(const Pose& target, cons
   return rootsOf(*algebraic_, target, complete);
 }
 
+std::optional<InverseOutline> CompletedMethod::outline() const {
+  if (rejects_ || completed_.turn < 0 || (!plan_ && !parallel_)) return std::nullopt;
+  InverseOutline outline = plan_ ? plan_->plan.outline() : parallel_->plan.outline();
+  (completed_.turnsByItself() ? outline.open_joint : outline.tool_turn) =
+      completed_.turnsByItself() ? completed_.turn : task_.pointingAxis();
+  return outline;
+}
+
 bool CompletedMethod::isLocked(const VectorX& q) const {
   for (int i = 0; i < completed_.locked; ++i) {
     if (std::abs(wrapAngle(q[completed_.own + i])) > kAlmostLocked) return false;

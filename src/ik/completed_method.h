@@ -31,6 +31,8 @@ class CompletedMethod {
 
   const std::string& method() const { return method_; }
   const std::vector<BranchPart>* branchParts() const;
+  /// Of the closed form, where the tool's turn is all that is added, if anything; else empty.
+  std::optional<InverseOutline> outline() const;
 
  private:
   CompletedMethod(const SerialChain& chain, const Task& task, CompletedChain completed);

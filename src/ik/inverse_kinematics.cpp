@@ -330,7 +330,13 @@ std::vector<std::string> InverseKinematics::branches() const {
 std::optional<InverseOutline> InverseKinematics::outline() const {
   const Implementation& self = *implementation_;
   if (self.plan && self.plan->task.size() == self.task.size()) return self.plan->plan.outline();
-  return self.parallel ? std::optional<InverseOutline>(self.parallel->plan.outline()) : std::nullopt;
+  if (self.parallel) return self.parallel->plan.outline();
+  if (self.completed) return self.completed->outline();
+  const bool given = self.redundant && self.redundant->closedForm() && self.redundant->closedForm()->compiledOnce();
+  if (!given) return std::nullopt;
+  InverseOutline outline = self.redundant->closedForm()->plan().outline();
+  outline.given = self.redundant->parameterJoint();
+  return outline;
 }
 
 /// Candidates into the list; false where there was none.

@@ -1,5 +1,6 @@
 #include "screwline/ik/method_summary.h"
 
+#include <optional>
 #include <utility>
 
 #include "screwline/model/structure.h"
@@ -15,8 +16,10 @@ std::vector<std::string> summaryOf(const InverseKinematics& ik) {
 }
 
 InverseSolver everySolution(const InverseKinematics& ik) {
-  return [&ik](const Pose& target) {
+  const std::optional<InverseOutline> outline = ik.outline();
+  return [&ik, parameter = outline ? outline->given : -1](const Pose& target, const VectorX& given) {
     IkRequest request;
+    if (parameter >= 0) request.redundancy = {given[parameter]};
     request.target = target;
     request.ignore_limits = true;
     request.find_closest = false;
@@ -28,7 +31,8 @@ InverseSolver everySolution(const InverseKinematics& ik) {
 
 InverseMethod inverseMethodOf(std::shared_ptr<const InverseKinematics> ik) {
   const InverseSolver solver = everySolution(*ik);
-  return {summaryOf(*ik), ik->outline(), [ik = std::move(ik), solver](const Pose& target) { return solver(target); }};
+  return {summaryOf(*ik), ik->outline(),
+          [ik = std::move(ik), solver](const Pose& target, const VectorX& given) { return solver(target, given); }};
 }
 
 }  // namespace screwline

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "cpp_roots.h"
 #include "cpp_writer.h"
 
 namespace screwline {
@@ -180,12 +181,21 @@ class HeaderMaker {
 
   void writeInverse() {
     writeHelpers();
+    const std::vector<InverseStep>& steps = inverse_->steps;
+    if (std::any_of(steps.begin(), steps.end(), [](const InverseStep& step) { return !step.equation.empty(); }))
+      text_ += kCppRoots;
     line(
         "/// All solutions for the task's rows of the target, joint limits not looked at; none where it is out of "
         "reach.");
-    line("inline std::vector<Solution> inverse(const Pose& target, const Joints& preferred = {}) {");
-    ++depth_;
     writer_.beginFunction();
+    std::string given;
+    if (inverse_->given >= 0) {
+      const std::string name = writer_.declare(inverse_->given, symbols_[inverse_->given].brief);
+      line("/// Seven joints leave one to be chosen: all solutions that have that value of " + name + ".");
+      given = "double " + name + ", ";
+    }
+    line("inline std::vector<Solution> inverse(const Pose& target, " + given + "const Joints& preferred = {}) {");
+    ++depth_;
     line("static_cast<void>(preferred);");
     line("std::vector<Solution> solutions;");
     writeTarget();
@@ -193,8 +203,8 @@ class HeaderMaker {
     std::vector<std::string> free(static_cast<std::size_t>(chain_.size()));
     for (const InverseStep& step : inverse_->steps) {
       if (!step.before.empty()) line("// " + step.before);
-      if (step.sign >= 0) {
-        writeBranches(step, loops > 0);
+      if (step.sign >= 0 || !step.equation.empty()) {
+        step.sign >= 0 ? writeBranches(step, loops > 0) : writeRoots(step, free);
         ++loops;
       } else {
         writeValue(step, free);
@@ -216,6 +226,7 @@ class HeaderMaker {
       collectSymbols(step.value, used);
       collectSymbols(step.radicand, used);
       for (const Formula& formula : step.free_if) collectSymbols(formula, used);
+      for (const Formula& formula : step.equation) collectSymbols(formula, used);
     }
     for (std::size_t i = 0; i < inverse_->target.size(); ++i) {
       const int id = inverse_->target[i];
@@ -248,39 +259,67 @@ class HeaderMaker {
     line("const double " + name + " = " + sign + " * " + root + ";");
   }
 
-  void writeValue(const InverseStep& step, std::vector<std::string>& free) {
-    declareCirculars(step.value);
-    const std::string value = writer_.expression(step.value);
-    const bool is_joint = step.symbol < inverse_->joints;
+  /// "isZero(a) && isZero(b)"; empty where the line's joint is never free.
+  std::string freeIf(const InverseStep& step) {
     std::string condition;
     for (const Formula& formula : step.free_if) {
       if (formula.isZero()) continue;
       declareCirculars(formula);
       condition += (condition.empty() ? "" : " && ") + std::string("isZero(") + writer_.expression(formula) + ")";
     }
-    const std::string name = writer_.declare(step.symbol, symbols_[step.symbol].brief);
-    if (!is_joint || condition.empty()) {
-      line("const double " + name + " = " + value + ";");
-      return;
-    }
-    const std::string is_free = writer_.fresh("free_" + name);
-    const std::string index = std::to_string(step.symbol);
+    return step.symbol < inverse_->joints ? condition : std::string();
+  }
+
+  /// Of the joint; empty without a condition.
+  std::string declareFree(const std::string& condition, const InverseStep& step, std::vector<std::string>& free) {
+    if (condition.empty()) return condition;
+    const std::string is_free = writer_.fresh("free_" + symbols_[step.symbol].brief);
     line("const bool " + is_free + " = " + condition + ";");
-    line("const double " + name + " = " + is_free + " ? preferred[" + index + "] : " + value + ";");
-    free[static_cast<std::size_t>(step.symbol)] = is_free;
+    return free[static_cast<std::size_t>(step.symbol)] = is_free;
+  }
+
+  void writeRoots(const InverseStep& step, std::vector<std::string>& free) {
+    std::string coefficients;
+    for (const Formula& formula : step.equation) {
+      declareCirculars(formula);
+      coefficients += (coefficients.empty() ? "" : ", ") + writer_.expression(formula);
+    }
+    std::string roots = step.tangent >= 0 ? "anglesOf(" + coefficients + ")" : "realRoots({" + coefficients + "})";
+    const std::string is_free = declareFree(freeIf(step), step, free);
+    if (!is_free.empty())
+      roots = is_free + " ? std::vector<double>{preferred[" + std::to_string(step.symbol) + "]} : " + roots;
+    line("for (const double " + writer_.declare(step.symbol, symbols_[step.symbol].brief) + " : " + roots + ") {");
+    ++depth_;
+  }
+
+  void writeValue(const InverseStep& step, std::vector<std::string>& free) {
+    declareCirculars(step.value);
+    const std::string value = writer_.expression(step.value);
+    const std::string is_free = declareFree(freeIf(step), step, free);
+    const std::string name = writer_.declare(step.symbol, symbols_[step.symbol].brief);
+    const std::string preferred = "preferred[" + std::to_string(step.symbol) + "]";
+    line("const double " + name + " = " + (is_free.empty() ? "" : is_free + " ? " + preferred + " : ") + value + ";");
   }
 
   void writeSolution(const std::vector<std::string>& free) {
     std::string values;
     std::string bits;
+    const auto append = [](std::string& list, const char* between, const std::string& one) {
+      list += (list.empty() ? "" : between) + one;
+    };
     for (int i = 0; i < chain_.size(); ++i) {
       const auto k = static_cast<std::size_t>(i);
+      const std::string bit = std::to_string(1U << k) + "U";
+      if (i == inverse_->open_joint) {
+        append(values, ", ", "preferred[" + std::to_string(i) + "]");
+        append(bits, " | ", bit);
+        continue;
+      }
       const std::string name = writer_.name(i);
       std::string value = inverse_->revolute[k] ? "wrapped(" + name + ")" : name;
       if (inverse_->revolute[k] && !free[k].empty()) value = free[k] + " ? " + name + " : " + value;
-      values += (values.empty() ? "" : ", ") + value;
-      if (!free[k].empty())
-        bits += (bits.empty() ? "" : " | ") + ("(" + free[k] + " ? " + std::to_string(1U << k) + "U : 0U)");
+      append(values, ", ", value);
+      if (!free[k].empty()) append(bits, " | ", "(" + free[k] + " ? " + bit + " : 0U)");
     }
     line("add({{" + values + "}, " + (bits.empty() ? "0U" : bits) + "}, solutions);");
   }

@@ -2,57 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
+#include "inverse_names.h"
 #include "screwline/model/structure.h"
 
 namespace screwline {
-namespace {
-
-/// What polynomials may have in them besides the target and the joints: a point, distances, entries of a rotation, a
-/// direction, a place in a plane, open rows.
-constexpr std::array<const char*, 29> kResults = {"wx",  "wy",  "wz",  "f",   "u",   "v",   "m11", "m12", "m13", "m21",
-                                                  "m22", "m23", "m31", "m32", "m33", "t11", "t12", "t13", "t21", "t22",
-                                                  "t23", "t31", "t32", "t33", "hx",  "hy",  "hz",  "o1",  "o2"};
-
-Symbol input(const std::string& name) {
-  Symbol symbol;
-  symbol.name = name;
-  symbol.brief = name;
-  const std::size_t letters = name.size() > 1 && name != "phi" ? 1 : name.size();
-  symbol.latex = letters < name.size() ? name.substr(0, 1) + "_{" + name.substr(1) + "}" : latexOfName(name);
-  return symbol;
-}
-
-void collectSymbols(const Formula& formula, std::set<int>& found) {
-  if (formula.kind() == Formula::Kind::kSymbol) found.insert(formula.symbolId());
-  for (const Formula& part : formula.parts()) collectSymbols(part, found);
-}
-
-/// Of symbols' squares only: never negative.
-bool isSumOfSquares(const Formula& formula) {
-  if (formula.kind() == Formula::Kind::kNumber) return formula.numerator() >= 0;
-  if (formula.kind() == Formula::Kind::kPower) return formula.numerator() % 2 == 0;
-  const bool composed = formula.kind() == Formula::Kind::kSum || formula.kind() == Formula::Kind::kProduct;
-  return composed && std::all_of(formula.parts().begin(), formula.parts().end(), isSumOfSquares);
-}
-
-Symbol plusOrMinus(const std::string& name, const char* brief, const char* latex) {
-  Symbol symbol;
-  symbol.name = name;
-  symbol.brief = brief;
-  symbol.latex = latex;
-  return symbol;
-}
-
-void collectSymbols(const InverseStep& step, std::set<int>& found) {
-  collectSymbols(step.value, found);
-  collectSymbols(step.radicand, found);
-  for (const Formula& formula : step.free_if) collectSymbols(formula, found);
-}
-
-}  // namespace
 
 TrigMatrix times(const TrigPose& X, const TrigMatrix& point) {
   return X.R * point + X.p;
@@ -64,27 +19,107 @@ ExactTable InverseBuilder::tableOf(const SerialChain& chain, const SymbolicOptio
   SymbolTable symbols;
   for (int id = 0; id < table.symbols.size() && table.symbols[id].kind != SymbolKind::kRate; ++id)
     symbols.add(table.symbols[id]);
-  for (const char* name : {"px", "py", "pz"}) symbols.add(input(name));
+  for (const char* name : {"px", "py", "pz"}) symbols.add(inputSymbol(name));
   for (const char* row : {"1", "2", "3"}) {
-    for (const char* column : {"1", "2", "3"}) symbols.add(input(std::string("r") + row + column));
+    for (const char* column : {"1", "2", "3"}) symbols.add(inputSymbol(std::string("r") + row + column));
   }
-  table.angle_groups.push_back({symbols.add(input("phi"))});
-  for (const char* name : kResults) symbols.add(input(name));
+  table.angle_groups.push_back({symbols.add(inputSymbol("phi"))});
+  for (const char* name : kInverseResults) symbols.add(inputSymbol(name));
   table.symbols = symbols;
   return table;
 }
 
-InverseBuilder::InverseBuilder(const SerialChain& chain, const SymbolicOptions& options, const Progress& progress)
-    : chain_(chain), exact_(tableOf(chain, options), chain, progress) {
-  const SymbolTable& symbols = exact_.table.symbols;
-  const int first = symbols.size() - static_cast<int>(kResults.size()) - 13;
-  for (int i = 0; i < 12; ++i) target_[static_cast<std::size_t>(i)] = first + i;
+InverseBuilder::InverseBuilder(const SerialChain& chain, const InverseOutline& outline, const SymbolicOptions& options,
+                               const Progress& progress)
+    : chain_(chain),
+      exact_(tableOf(chain, options), chain, progress),
+      steps_(exact_.steps),
+      base_(exact_.base),
+      target_(identity()) {
+  const int first = exact_.table.symbols.size() - static_cast<int>(kInverseResults.size()) - 13;
+  for (int i = 0; i < 12; ++i) inputs_[static_cast<std::size_t>(i)] = first + i;
   heading_ = first + 12;
+  for (int i = 0; i < 12; ++i) (i < 3 ? target_.p(i, 0) : target_.R((i - 3) / 3, i % 3)) = symbol(first + i);
+  for (int i = 0; i < exact_.size; ++i) {
+    const Axis& line = chain.axes()[static_cast<std::size_t>(i)];
+    axes_.push_back({i, i + 1, identity(), i, line.prismatic, 1, line});
+  }
+  open_joint_ = outline.open_joint;
+  if (outline.given >= 0) leaveOutGiven(outline.given);
+  if (outline.tool_turn >= 0) addToolTurn(outline.tool_turn);
 }
 
-InverseAxis InverseBuilder::axis(int joint, int sense) const {
-  const Axis& line = chain_.axes()[static_cast<std::size_t>(joint)];
-  return {zeroFrame(joint + 1), joint, joint, line.prismatic, sense, line};
+/// What is left ends with, or begins with, a frame that the given joint's own axis moves: see takeOff().
+void InverseBuilder::leaveOutGiven(int given) {
+  given_ = given;
+  axes_.erase(axes_.begin() + given);
+  if (given == 0) {
+    first_ = 1;
+    base_ = identity();
+    steps_.erase(steps_.begin());
+  } else {
+    steps_.pop_back();
+    steps_.back() = identity();
+  }
+  for (int i = 0; i < size(); ++i) {
+    axes_[static_cast<std::size_t>(i)].place = i;
+    axes_[static_cast<std::size_t>(i)].frame = i + 1;
+  }
+}
+
+/// One axis more, through the tip along an axis of it; its angle is the symbol phi.
+void InverseBuilder::addToolTurn(int tool_axis) {
+  TrigPose turned = identity();
+  turned.R = TrigMatrix(ring(), 3, 3);
+  for (int i = 0; i < 3; ++i) turned.R((tool_axis + 1 + i) % 3, i) = number(1);
+  TrigPose turn = identity();
+  turn.R = rotationAboutZ({{{heading_, 1}}, 0});
+  steps_.back() = steps_.back() * turned * turn;
+  steps_.push_back(turned.inverse());
+  Axis line;
+  line.direction = chain_.home().R.col(tool_axis);
+  line.point = chain_.home().p;
+  axes_.push_back({size(), size() + 1, identity(), heading_, false, 1, line});
+}
+
+std::string InverseBuilder::marksOf(const InverseAxis& axis) const {
+  return std::string("0, 1 and 2 mark the parts without and with the factors ") +
+         (axis.slides ? "d and d^2" : "cos and sin") + " of " + namesOf({axis.place}) +
+         "; short parts are put in at once";
+}
+
+void InverseBuilder::takeOff(bool tool) {
+  const auto isTurnedBySymbols = [this](const TrigMatrix& R) {
+    for (int i = 0; i < 9; ++i) {
+      if (!R(i / 3, i % 3).symbols().empty()) return true;
+    }
+    return false;
+  };
+  const bool by_symbols = isTurnedBySymbols(exact_.base.R) || (tool && isTurnedBySymbols(exact_.tool.R));
+  if (given_ < 0 && !by_symbols) return;
+  const TrigPose before = given_ == 0 ? exact_.steps.front() : exact_.base;
+  TrigPose X = before.inverse() * target_;
+  if (tool) {
+    const TrigPose& last = exact_.steps[exact_.steps.size() - 2];
+    X = X * exact_.tool.inverse();
+    if (given_ > 0) X = X * last.inverse();
+    steps_.back() = identity();
+  }
+  say(given_ < 0 ? "The last frame, seen from the first (base and tool taken off):"
+                 : "With " + exact_.table.symbols[given_].brief +
+                       " given, where the others have to bring the last frame that they move, seen from the first:");
+  const char* names[3] = {"qx", "qy", "qz"};
+  for (int i = 0; i < 3; ++i) X.p(i, 0) = named(names[i], X.p(i, 0));
+  X.R = namedEntries("t", X.R);
+  target_ = X;
+  steps_.front() = base_.inverse() * steps_.front();
+  base_ = identity();
+}
+
+InverseAxis InverseBuilder::axis(int place, int sense) const {
+  InverseAxis axis = axes_[static_cast<std::size_t>(place)];
+  axis.sense = sense;
+  return axis;
 }
 
 InverseAxis InverseBuilder::openRow(int row, int number) const {
@@ -94,8 +129,8 @@ InverseAxis InverseBuilder::openRow(int row, int number) const {
   Axis line;
   line.prismatic = true;
   line.direction = Vector3::Unit(row);
-  const int symbol = heading_ + static_cast<int>(kResults.size()) - 2 + number;
-  return {Z, -1, symbol, true, 1, line};
+  const int symbol = heading_ + static_cast<int>(kInverseResults.size()) - 2 + number;
+  return {-1, 0, Z, symbol, true, 1, line};
 }
 
 TrigPose InverseBuilder::identity() const {
@@ -131,11 +166,11 @@ TrigPose InverseBuilder::shiftAlongZ(const TrigPolynomial& length) const {
 
 TrigPose InverseBuilder::constantStep(int i) const {
   TrigPose X = step(i);
-  if (i == exact_.size) return X;
+  if (i == size()) return X;
+  const InverseAxis& axis = axes_[static_cast<std::size_t>(i)];
   const auto atZero = [&](TrigPolynomial& entry) {
-    if (!entry.dependsOn(i)) return;
-    const bool slides = exact_.prismatic[static_cast<std::size_t>(i)];
-    entry = slides ? entry.atScalar(i, TrigPolynomial(ring())) : entry.atAngle(i, 0);
+    if (!entry.dependsOn(axis.symbol)) return;
+    entry = axis.slides ? entry.atScalar(axis.symbol, TrigPolynomial(ring())) : entry.atAngle(axis.symbol, 0);
   };
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) atZero(X.R(row, column));
@@ -144,33 +179,31 @@ TrigPose InverseBuilder::constantStep(int i) const {
   return X;
 }
 
-TrigPose InverseBuilder::zeroFrame(int frame) const {
+TrigPose InverseBuilder::between(int from, int to) const {
+  if (from > to) return between(to, from).inverse();
   TrigPose X = identity();
-  for (int i = 0; i < frame; ++i) X = X * constantStep(i);
+  for (int i = from; i < to; ++i) X = X * constantStep(i);
   return X;
 }
 
-TrigPolynomial InverseBuilder::offsetAlong(int joint) const {
-  return exact_.length(exact_.table.rows[static_cast<std::size_t>(joint)].d);
+TrigPose InverseBuilder::relative(const InverseAxis& from, const InverseAxis& to) const {
+  return from.local.inverse() * between(from.frame, to.frame) * to.local;
 }
 
-ExactAngle InverseBuilder::offsetAbout(int joint) const {
+TrigMatrix InverseBuilder::seenFrom(const InverseAxis& axis, const InversePoint& point) const {
+  return times(axis.local.inverse() * between(axis.frame, point.frame), point.p);
+}
+
+TrigPolynomial InverseBuilder::offsetAlong(int place) const {
+  return exact_.length(exact_.table.rows[static_cast<std::size_t>(place + first_)].d);
+}
+
+ExactAngle InverseBuilder::offsetAbout(int place) const {
+  const int joint = place + first_;
   ExactAngle angle = exact_.table.rows[static_cast<std::size_t>(joint)].theta;
   const auto own = [joint](const std::pair<int, int>& share) { return share.first == joint; };
   angle.symbols.erase(std::remove_if(angle.symbols.begin(), angle.symbols.end(), own), angle.symbols.end());
   return angle;
-}
-
-TrigMatrix InverseBuilder::targetPoint() const {
-  TrigMatrix p(ring(), 3, 1);
-  for (int i = 0; i < 3; ++i) p(i, 0) = symbol(target_[static_cast<std::size_t>(i)]);
-  return p;
-}
-
-TrigMatrix InverseBuilder::targetRotation() const {
-  TrigMatrix R(ring(), 3, 3);
-  for (int i = 0; i < 9; ++i) R(i / 3, i % 3) = symbol(target_[static_cast<std::size_t>(i) + 3]);
-  return R;
 }
 
 bool InverseBuilder::isConstant(const TrigPolynomial& polynomial) const {
@@ -194,109 +227,21 @@ bool InverseBuilder::isZero(const TrigPolynomial& polynomial) const {
   return isConstant(polynomial) && std::abs(valueOf(polynomial)) <= bound * bound;
 }
 
-int InverseBuilder::addSymbol(const std::string& name) {
-  return exact_.table.symbols.add(input(name));
-}
-
-void InverseBuilder::addStep(InverseStep step) {
-  step.before = std::exchange(before_, "");
-  steps_.push_back(std::move(step));
-}
-
-TrigPolynomial InverseBuilder::named(const std::string& name, const TrigPolynomial& polynomial) {
-  if (polynomial.terms().size() <= 1 || isConstant(polynomial)) return polynomial;
-  const auto place = std::find(kResults.begin(), kResults.end(), name) - kResults.begin();
-  InverseStep step;
-  step.symbol = heading_ + 1 + static_cast<int>(place);
-  step.value = formula(polynomial);
-  addStep(step);
-  return symbol(step.symbol);
-}
-
-TrigPolynomial InverseBuilder::root(const std::string& name, const TrigPolynomial& radicand) {
-  const auto place = std::find(kResults.begin(), kResults.end(), name) - kResults.begin();
-  const int id = heading_ + 1 + static_cast<int>(place);
-  addRoot(id, inputsFirst(radicand));
-  return symbol(id);
-}
-
-void InverseBuilder::addRoot(int id, const Formula& radicand) {
-  const bool only_sign = radicand.isNumber(1);
-  const std::string name = "sign" + std::to_string(++signs_);
-  InverseStep step;
-  step.symbol = id;
-  step.radicand = radicand;
-  step.reach = !isSumOfSquares(radicand);
-  step.sign = exact_.table.symbols.add(plusOrMinus(name, only_sign ? "+-1" : "+-", only_sign ? "\\pm 1" : "\\pm"));
-  const Formula sign = Formula::symbol(step.sign);
-  step.value = only_sign ? sign : sign * Formula::sqrt(radicand);
-  addStep(std::move(step));
-}
-
-Formula InverseBuilder::inputsFirst(const TrigPolynomial& polynomial) const {
-  TrigPolynomial constant(ring());
-  for (const auto& [key, coefficient] : polynomial.terms()) {
-    const TrigPolynomial term = TrigPolynomial::term(ring(), key, coefficient);
-    if (isConstant(term)) constant += term;
-  }
-  return formula(polynomial - constant) + formula(constant);
-}
-
-Formula InverseBuilder::formulaNamed(const std::string& name, const Formula& value) {
-  InverseStep step;
-  step.symbol = addSymbol(name);
-  step.value = value;
-  const Formula result = Formula::symbol(step.symbol);
-  addStep(std::move(step));
-  return result;
-}
-
-Formula InverseBuilder::rootNamed(const std::string& name, const Formula& radicand) {
-  const int id = addSymbol(name);
-  addRoot(id, radicand);
-  return Formula::symbol(id);
-}
-
-void InverseBuilder::setJoint(int symbol, const Formula& value, const std::vector<Formula>& free_if) {
-  InverseStep step;
-  step.symbol = symbol;
-  step.value = value;
-  // "wz" says as much as "-wz".
-  const auto isNegated = [](const Formula& formula) {
-    return formula.kind() == Formula::Kind::kProduct && formula.parts().front().kind() == Formula::Kind::kNumber &&
-           formula.parts().front().numerator() < 0;
-  };
-  for (const Formula& formula : free_if) step.free_if.push_back(isNegated(formula) ? -formula : formula);
-  addStep(std::move(step));
-}
-
 std::string InverseBuilder::suffix(const InverseAxis& axis) const {
-  return axis.joint < 0 ? exact_.table.symbols[axis.symbol].brief : std::to_string(axis.joint + 1);
+  return axis.symbol < exact_.joints ? std::to_string(axis.symbol + 1) : exact_.table.symbols[axis.symbol].brief;
 }
 
-/// Backwards from the joints: what is needed, and what that needs.
-InverseFormulas InverseBuilder::finished() {
-  std::set<int> needed;
-  for (int i = 0; i < exact_.joints; ++i) needed.insert(i);
-  std::vector<InverseStep> kept;
-  for (std::size_t i = steps_.size(); i > 0; --i) {
-    const InverseStep& step = steps_[i - 1];
-    if (needed.count(step.symbol) > 0) {
-      collectSymbols(step, needed);
-      kept.push_back(step);
-    } else if (!kept.empty() && kept.back().before.empty()) {
-      kept.back().before = step.before;
-    }
-  }
-  std::reverse(kept.begin(), kept.end());
-  InverseFormulas result;
-  result.symbols = exact_.table.symbols;
-  result.joints = exact_.joints;
-  result.target = target_;
-  result.steps = std::move(kept);
-  for (bool slides : exact_.prismatic) result.revolute.push_back(!slides);
-  result.length = chain_.characteristicLength();
-  return result;
+std::string InverseBuilder::namesOf(const std::vector<int>& places) const {
+  if (places.front() < 0) return "the open row";
+  std::vector<int> numbers;
+  for (const int place : places) numbers.push_back(axes_[static_cast<std::size_t>(place)].symbol + 1);
+  std::sort(numbers.begin(), numbers.end());
+  const bool tool_turns = numbers.back() > exact_.joints;
+  if (tool_turns) numbers.pop_back();
+  if (numbers.size() == 3) return "joints " + std::to_string(numbers[0]) + " to " + std::to_string(numbers[2]);
+  std::string names = std::string(numbers.size() == 1 ? "joint " : "joints ") + std::to_string(numbers[0]);
+  if (numbers.size() == 2) names += (tool_turns ? ", " : " and ") + std::to_string(numbers[1]);
+  return tool_turns ? names + " and the tool's turn" : names;
 }
 
 }  // namespace screwline

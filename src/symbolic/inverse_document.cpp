@@ -40,6 +40,15 @@ void writeRemarks(const InverseFormulas& formulas, const InverseStep& step, cons
                       writer.text("; two branches meet where ") +
                       (ratio ? writer.text("it is 1") : writer.text("it is zero")));
   }
+  if (!step.equation.empty()) {
+    const std::string unknown = writer.formula(Formula::symbol(step.tangent >= 0 ? step.tangent : step.symbol));
+    remarks.push_back(writer.text("no solution (out of reach) where the quartic for ") + unknown +
+                      writer.text(" has no real root; two branches meet in a double root") +
+                      (step.tangent < 0 ? ""
+                                        : writer.text("; where its first coefficient is zero, ") +
+                                              writer.formula(Formula::symbol(step.symbol)) + writer.text(" = ") +
+                                              writer.symbol("pi", "\\pi") + writer.text(" is one")));
+  }
   if (step.free_if.empty()) return;
   std::string zeros;
   for (const Formula& formula : step.free_if) {
@@ -50,23 +59,74 @@ void writeRemarks(const InverseFormulas& formulas, const InverseStep& step, cons
                     " = 0");
 }
 
+/// What an equation is a polynomial of, and that polynomial: of tan(x/2), (1 + tan^2)^2 times the sum.
+Formula polynomialOf(const InverseStep& step) {
+  std::vector<Formula> c = step.equation;
+  if (step.tangent >= 0) {
+    const Formula k = c[0];
+    const Formula two = Formula::number(2);
+    const Formula four = Formula::number(4);
+    const Formula level = two * k - Formula::number(6) * c[3];
+    const Formula sine = two * c[2];
+    const Formula twice = four * c[4];
+    c = {k + c[1] + c[3], sine + twice, level, sine - twice, k - c[1] + c[3]};
+  }
+  const Formula unknown = Formula::symbol(step.tangent >= 0 ? step.tangent : step.symbol);
+  std::vector<Formula> terms;
+  for (int i = 4; i >= 0; --i) {
+    const Formula power = i == 0 ? Formula::number(1) : i == 1 ? unknown : Formula::power(unknown, i);
+    terms.push_back(c[static_cast<std::size_t>(i)] * power);
+  }
+  return Formula::sum(terms);
+}
+
+/// A quartic, and the joint from its root.
+void writeEquation(const InverseFormulas& formulas, const InverseStep& step, DocumentFormat format,
+                   DocumentWriter& writer) {
+  writer.equation("0", "0", polynomialOf(step));
+  if (step.tangent < 0) return;
+  const Formula angle =
+      Formula::call(FormulaFunction::kArcTangent2, {Formula::symbol(step.tangent), Formula::number(1)});
+  writer.equation(formulas.symbols[step.symbol].brief, nameIn(formulas, step.symbol, format),
+                  Formula::number(2) * angle);
+}
+
 }  // namespace
 
 std::string inverseSection(const InverseFormulas& formulas, DocumentFormat format) {
   DocumentWriter writer(format, formulas.symbols);
   int branches = 1;
-  for (const InverseStep& step : formulas.steps) branches *= step.sign >= 0 ? 2 : 1;
+  for (const InverseStep& step : formulas.steps) branches *= step.sign >= 0 ? 2 : step.equation.empty() ? 1 : 4;
   std::string intro = "Line by line, for the tip at " + writer.symbol("(px, py, pz)", "(p_x, p_y, p_z)") +
                       writer.text(" with rotation entries ") + writer.symbol("r11 to r33", "r_{11} \\ldots r_{33}") +
                       writer.text(" in the base link; each ") + writer.symbol("+-", "\\pm") +
                       writer.text(" gives two branches, " + std::to_string(branches) + " solutions at most.");
+  if (formulas.given >= 0) {
+    intro += " " + writer.formula(Formula::symbol(formulas.given)) +
+             writer.text(
+                 " is given: seven joints leave one to be chosen, and for each of its values the lines give the "
+                 "other six.");
+  }
+  if (formulas.tool_turn >= 0) {
+    intro += " " + writer.formula(Formula::symbol(formulas.tool_turn)) +
+             writer.text(
+                 " is the tool's turn about the direction that the task asks for: as any turn does, so does the "
+                 "target's own.");
+  }
   writer.paragraph(intro);
   std::vector<std::string> remarks;
   for (const InverseStep& step : formulas.steps) {
     if (!step.before.empty()) writer.paragraph(writer.text(step.before));
-    writer.equation(formulas.symbols[step.symbol].brief, nameIn(formulas, step.symbol, format), step.value);
+    if (step.equation.empty()) {
+      writer.equation(formulas.symbols[step.symbol].brief, nameIn(formulas, step.symbol, format), step.value);
+    } else {
+      writeEquation(formulas, step, format, writer);
+    }
     writeRemarks(formulas, step, writer, remarks);
   }
+  if (formulas.open_joint >= 0)
+    remarks.push_back(writer.formula(Formula::symbol(formulas.open_joint)) +
+                      writer.text(" may take any value: it only turns the tool about its direction"));
   if (!remarks.empty()) {
     writer.paragraph(writer.text("Conditions and degenerate cases:"));
     writer.list(remarks);

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "../kinematics/sampling.h"
+#include "inverse_roots.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/spatial/rotation.h"
@@ -36,6 +38,7 @@ class Branches {
     for (int id = 0; id < formulas.symbols.size(); ++id) values_.push_back(formulas.symbols[id].value);
     for (int i = 0; i < 3; ++i) set(formulas.target[static_cast<std::size_t>(i)], target.p[i]);
     for (int i = 0; i < 9; ++i) set(formulas.target[static_cast<std::size_t>(i) + 3], target.R(i / 3, i % 3));
+    if (formulas.given >= 0) set(formulas.given, preferred[formulas.given]);
   }
 
   std::vector<InverseSolution> all() {
@@ -55,6 +58,7 @@ class Branches {
                          std::all_of(step.free_if.begin(), step.free_if.end(), [&](const Formula& formula) {
                            return std::abs(formula.evaluate(values_)) <= kFree * std::max(1.0, formulas_.length);
                          });
+    if (!step.equation.empty() && !is_free) return followRoots(step, line, free);
     set(step.symbol, is_free ? preferred_[step.symbol] : step.value.evaluate(values_));
     follow(line + 1, is_free ? free | 1U << step.symbol : free);
   }
@@ -79,10 +83,20 @@ class Branches {
     }
   }
 
+  void followRoots(const InverseStep& step, std::size_t line, unsigned free) {
+    std::array<double, 5> coefficients{};
+    for (std::size_t i = 0; i < 5; ++i) coefficients[i] = step.equation[i].evaluate(values_);
+    for (const double root : step.tangent >= 0 ? zeroAngles(coefficients) : realRoots(coefficients)) {
+      set(step.symbol, root);
+      follow(line + 1, free);
+    }
+  }
+
   void keep(unsigned free) {
+    if (formulas_.open_joint >= 0) free |= 1U << formulas_.open_joint;
     InverseSolution solution{VectorX(formulas_.joints), free};
     for (int i = 0; i < formulas_.joints; ++i) {
-      const double value = values_[static_cast<std::size_t>(i)];
+      const double value = i == formulas_.open_joint ? preferred_[i] : values_[static_cast<std::size_t>(i)];
       const bool turns = formulas_.revolute[static_cast<std::size_t>(i)] && (free >> i & 1U) == 0U;
       solution.q[i] = turns ? wrapAngle(value) : value;
     }
@@ -109,14 +123,22 @@ double taskDeviation(const SerialChain& chain, const Task& task, const Pose& tar
   for (int row = 0; row < 6; ++row) {
     if (task.contains(row)) worst = std::max(worst, std::abs(error[row]));
   }
+  const int pointing = task.pointingAxis();
+  if (pointing >= 0) worst = std::max(worst, X.R.col(pointing).cross(target.R.col(pointing)).norm());
   return worst;
 }
 
-bool isClear(const SerialChain& chain, const Task& task, const VectorX& q) {
+bool isClear(const SerialChain& chain, const Task& task, int given, const VectorX& q) {
   Matrix6X J(6, chain.size());
   const Matrix3 R = geometricJacobian(chain, q, J).R;
   J.topRows<3>() /= chain.characteristicLength();
-  const VectorX values = Svd(task.select(J, R)).singularValues();
+  MatrixX J_task = task.select(J, R);
+  if (given >= 0) {  // The others alone.
+    const Eigen::Index behind = J_task.cols() - 1 - given;
+    J_task.middleCols(given, behind) = J_task.rightCols(behind).eval();
+    J_task.conservativeResize(Eigen::NoChange, J_task.cols() - 1);
+  }
+  const VectorX values = Svd(J_task).singularValues();
   return values.minCoeff() > kClear * values.maxCoeff();
 }
 
@@ -131,10 +153,13 @@ InverseCheck checkInverse(const InverseFormulas& formulas, const SerialChain& ch
   InverseCheck check;
   for (int k = 0; check.poses < poses && k < 20 * poses; ++k) {
     const VectorX q = sampleConfiguration(chain, k);
-    if (!isClear(chain, task, q)) continue;
+    if (!isClear(chain, task, formulas.given, q)) continue;
     const Pose target = forwardKinematics(chain, q);
-    const std::vector<VectorX> expected = solver(target);
-    const std::vector<InverseSolution> found = evaluate(formulas, target, q);
+    const std::vector<VectorX> expected = solver(target, q);
+    VectorX preferred = q;
+    const int open = formulas.open_joint;
+    if (open >= 0 && !expected.empty()) preferred[open] = expected.front()[open];
+    const std::vector<InverseSolution> found = evaluate(formulas, target, preferred);
     ++check.poses;
     check.solutions += static_cast<int>(expected.size());
     for (const VectorX& solution : expected) {

@@ -25,24 +25,30 @@ std::array<InverseAxis, 3> positionAxes(const InverseBuilder& builder, const Tas
   return {axes[0], axes[1], axes[2]};
 }
 
+InversePoint originOf(const InverseBuilder& builder, int frame) {
+  return {frame, TrigMatrix(builder.ring(), 3, 1)};
+}
+
 bool writePoint(InverseBuilder& builder, const Task& task, const InverseOutline& outline) {
-  const TrigMatrix start = builder.zeroFrame(builder.chain().size() + 1).p;
+  if (task.translationCount() == 3) builder.takeOff(false);
   builder.say("The tip, seen from the first axis:");
-  return writePosition(builder, positionAxes(builder, task, outline), start, builder.targetPoint());
+  return writePosition(builder, positionAxes(builder, task, outline), originOf(builder, builder.size() + 1),
+                       {0, builder.targetPoint()});
 }
 
 /// The centre of a spherical wrist or shoulder lies where the first two of its axes meet.
 bool writeSpherical(InverseBuilder& builder, const InverseOutline& outline) {
-  const int n = builder.chain().size();
-  const TrigMatrix center = builder.zeroFrame(outline.spherical_first + 1).p;
-  const TrigPose home = builder.zeroFrame(n + 1);
+  builder.takeOff(true);
+  const int center = outline.spherical_first + 1;
+  const int tip = builder.size() + 1;
   const TrigMatrix R = builder.targetRotation();
   const TrigMatrix p = builder.targetPoint();
   const bool is_wrist = outline.shape == InverseShape::kWrist;
-  const TrigMatrix goal = is_wrist ? R * times(home.inverse(), center) + p : times(home, R.transposed() * (center - p));
+  const InversePoint goal = is_wrist ? InversePoint{0, R * builder.between(tip, center).p + p}
+                                     : InversePoint{tip, R.transposed() * (builder.between(0, center).p - p)};
   builder.say(is_wrist ? "The wrist's centre, seen from the first axis:"
                        : "The shoulder's centre, seen from the tip and turned into the axes at zero:");
-  if (!writePosition(builder, positionAxes(builder, Task(), outline), center, goal)) return false;
+  if (!writePosition(builder, positionAxes(builder, Task(), outline), originOf(builder, center), goal)) return false;
   return writeOrientation(builder, outline.spherical_first);
 }
 
@@ -50,7 +56,7 @@ bool writeSpherical(InverseBuilder& builder, const InverseOutline& outline) {
 bool writeHeading(InverseBuilder& builder, const Task& task, const InverseOutline& outline) {
   if (outline.turning_slides) return false;
   const SerialChain& chain = builder.chain();
-  const TrigPose home = builder.zeroFrame(chain.size() + 1);
+  const TrigPose home = builder.between(0, chain.size() + 1);
   const int x = (outline.heading_row + 1) % 3;
   const int y = (outline.heading_row + 2) % 3;
   const TrigMatrix turned = builder.targetRotation() * home.R.transposed();
@@ -58,15 +64,16 @@ bool writeHeading(InverseBuilder& builder, const Task& task, const InverseOutlin
   builder.setJoint(builder.heading(), Formula::call(FormulaFunction::kArcTangent2,
                                                     {builder.formula(turned(y, x)), builder.formula(turned(x, x))}));
   if (outline.has_position) {
-    const TrigMatrix start = builder.zeroFrame(outline.heading_joint + 1).p;
-    const TrigMatrix lever = home.p - start;
+    const int place = outline.heading_joint + 1;
+    const TrigMatrix lever = home.p - builder.between(0, place).p;
     const TrigPolynomial c = TrigPolynomial::cosine(builder.ring(), {{builder.heading(), 1}});
     const TrigPolynomial s = TrigPolynomial::sine(builder.ring(), {{builder.heading(), 1}});
     TrigMatrix goal = builder.targetPoint() - lever;
     goal(x, 0) += lever(x, 0) - (c * lever(x, 0) - s * lever(y, 0));
     goal(y, 0) += lever(y, 0) - (s * lever(x, 0) + c * lever(y, 0));
     builder.say("The axis of joint " + std::to_string(outline.heading_joint + 1) + ", seen from the first axis:");
-    if (!writePosition(builder, positionAxes(builder, task, outline), start, goal)) return false;
+    if (!writePosition(builder, positionAxes(builder, task, outline), originOf(builder, place), {0, goal}))
+      return false;
   }
   const auto senseOf = [&](const Axis& axis) { return axis.direction[outline.heading_row] < 0.0 ? -1 : 1; };
   Formula rest = Formula::symbol(builder.heading());
@@ -86,6 +93,7 @@ bool writePlan(InverseBuilder& builder, const Task& task, const InverseOutline& 
     case InverseShape::kPosition:
       return writePoint(builder, task, outline);
     case InverseShape::kOrientation:
+      builder.takeOff(true);
       return writeOrientation(builder, 0);
     case InverseShape::kWrist:
     case InverseShape::kShoulder:
@@ -104,7 +112,7 @@ std::optional<InverseFormulas> inverseFormulasOf(const SerialChain& chain, const
                                                  const InverseOutline& outline, const SymbolicOptions& options,
                                                  const Progress& progress) {
   if (chain.hasMimic()) return std::nullopt;
-  InverseBuilder builder(chain, options, progress);
+  InverseBuilder builder(chain, outline, options, progress);
   if (!writePlan(builder, task, outline)) return std::nullopt;
   return builder.finished();
 }
@@ -113,7 +121,7 @@ InverseDerivation deriveInverse(const SerialChain& chain, const Task& task, cons
                                 const SymbolicOptions& options, const Progress& progress) {
   InverseDerivation derivation;
   if (!method.outline) {
-    derivation.reason = "no formulas: the solver has no closed form for this geometry and task";
+    derivation.reason = "no formulas: the solver has no closed form for this geometry and all rows of the task";
     return derivation;
   }
   Progress limited = progress;
@@ -126,7 +134,7 @@ InverseDerivation deriveInverse(const SerialChain& chain, const Task& task, cons
     return derivation;
   }
   if (!derivation.formulas) {
-    derivation.reason = "no formulas: a step of the solver's closed form takes more than a square root";
+    derivation.reason = "no formulas: a case of the solver's closed form is not written";
     return derivation;
   }
   if (!method.solver) return derivation;

@@ -13,22 +13,14 @@ bool isUnit(const InverseBuilder& builder, const TrigPolynomial& polynomial) {
   return polynomial == builder.number(1) || polynomial == builder.number(-1);
 }
 
-TrigMatrix nameEntries(InverseBuilder& builder, const std::string& letter, TrigMatrix M) {
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j)
-      M(i, j) = builder.named(letter + std::to_string(i + 1) + std::to_string(j + 1), M(i, j));
-  }
-  return M;
-}
-
 /// What the three turns have to do, seen from the frame before them: M = Rz(first) C5 Rz(second) C6 Rz(third). How base
 /// and tool are mounted is taken off first.
 TrigMatrix rotationLeft(InverseBuilder& builder, int first) {
-  const int n = builder.chain().size();
+  const int n = builder.size();
   const TrigMatrix mounted = builder.base().R;
   const TrigMatrix tool = builder.step(n).R;
   builder.say("The rotation between the first and the last axis, base and tool taken off:");
-  const TrigMatrix T = nameEntries(builder, "t", mounted.transposed() * (builder.targetRotation() * tool.transposed()));
+  const TrigMatrix T = builder.namedEntries("t", mounted.transposed() * (builder.targetRotation() * tool.transposed()));
   TrigMatrix before = mounted.transposed();
   for (int i = 0; i < first; ++i) before = before * builder.step(i).R;
   before = before * builder.constantStep(first).R;
@@ -57,10 +49,9 @@ bool InverseBuilder::solveMiddle(const InverseAxis& axis, const TrigMatrix& colu
 }
 
 bool writeOrientation(InverseBuilder& builder, int first) {
-  const std::string names = std::to_string(first + 1) + " to " + std::to_string(first + 3);
   const TrigMatrix left = rotationLeft(builder, first);
-  builder.say("The rotation that joints " + names + " have to make:");
-  const TrigMatrix M = nameEntries(builder, "m", left);
+  builder.say("The rotation that " + builder.namesOf({first, first + 1, first + 2}) + " have to make:");
+  const TrigMatrix M = builder.namedEntries("m", left);
   const InverseAxis axes[3] = {builder.axis(first, 1), builder.axis(first + 1, 1), builder.axis(first + 2, 1)};
   const TrigMatrix C5 = builder.constantStep(first + 1).R;
   const TrigMatrix C6 = builder.constantStep(first + 2).R;

@@ -18,9 +18,9 @@ class ParallelWriter {
     const TrigPose to_table = builder.base().inverse();
     for (int i = 0; i < 6; ++i) {
       axes_.push_back(outline.reversed ? builder.axis(5 - i, -1) : builder.axis(i, 1));
-      axes_.back().Z = to_table * axes_.back().Z;
+      Z_.push_back(to_table * builder.between(0, axes_.back().frame));
     }
-    const TrigPose all = lastFrame() * (to_table * builder.zeroFrame(6)).inverse();
+    const TrigPose all = lastFrame() * (to_table * builder.between(0, 6)).inverse();
     target_ = outline.reversed ? all.inverse() : all;
   }
 
@@ -36,21 +36,19 @@ class ParallelWriter {
                  builder_.step(6).inverse();
     builder_.say("The frame on the last axis, base and tool taken off:");
     const char* names[3] = {"wx", "wy", "wz"};
-    for (int i = 0; i < 3; ++i) {
-      X.p(i, 0) = builder_.named(names[i], X.p(i, 0));
-      for (int j = 0; j < 3; ++j)
-        X.R(i, j) = builder_.named("t" + std::to_string(i + 1) + std::to_string(j + 1), X.R(i, j));
-    }
+    for (int i = 0; i < 3; ++i) X.p(i, 0) = builder_.named(names[i], X.p(i, 0));
+    X.R = builder_.namedEntries("t", X.R);
     return X;
   }
 
   const InverseAxis& axis(int place) const { return axes_[static_cast<std::size_t>(place)]; }
+  const TrigPose& Z(int place) const { return Z_[static_cast<std::size_t>(place)]; }
   /// The motion of an axis, in the table's first frame.
   TrigPose turn(int place) const {
     const InverseAxis& a = axis(place);
-    return a.Z * builder_.motion(a) * a.Z.inverse();
+    return Z(place) * builder_.motion(a) * Z(place).inverse();
   }
-  TrigMatrix along() const { return axis(outline_.first_parallel).Z.R.column(2); }
+  TrigMatrix along() const { return Z(outline_.first_parallel).R.column(2); }
   bool isBefore() const { return outline_.single < outline_.first_parallel; }
   bool isBetween() const { return outline_.single > outline_.first_parallel && outline_.single < outline_.pair; }
 
@@ -60,11 +58,10 @@ class ParallelWriter {
   }
 
   /// Where the pair's axes meet: the origin of the table's frame on the one nearer to the base.
-  TrigMatrix meeting() const { return axis(outline_.reversed ? outline_.pair + 1 : outline_.pair).Z.p; }
+  TrigMatrix meeting() const { return Z(outline_.reversed ? outline_.pair + 1 : outline_.pair).p; }
 
   bool writeSingle() {
-    builder_.say("The height, along the parallel axes, of the point where the axes of joints " + pairNames() +
-                 " meet:");
+    builder_.say("The height, along the parallel axes, of the point where the axes of " + pairNames() + " meet:");
     const TrigMatrix point = meeting();
     const TrigPose J = turn(outline_.single);
     TrigPolynomial equation(builder_.ring());
@@ -78,11 +75,7 @@ class ParallelWriter {
     return builder_.solve(axis(outline_.single), equation);
   }
 
-  std::string pairNames() const {
-    const int a = axis(outline_.pair).joint + 1;
-    const int b = axis(outline_.pair + 1).joint + 1;
-    return std::to_string(std::min(a, b)) + " and " + std::to_string(std::max(a, b));
-  }
+  std::string pairNames() const { return builder_.namesOf({axis(outline_.pair).place, axis(outline_.pair + 1).place}); }
 
   /// Rz(first) K Rz(second) f = e: the parallel axes' direction seen from both sides of the pair.
   bool writePair() {
@@ -93,12 +86,12 @@ class ParallelWriter {
     if (isBefore()) from = target_.R.transposed() * (turn(0).R * along());
     if (isBetween()) to = turn(outline_.single).R.transposed() * along();
     if (!isBefore() && !isBetween()) from = turn(outline_.single).R * from;
-    builder_.say("The direction of the parallel axes, seen from behind joints " + pairNames() + ":");
-    TrigMatrix f = second.Z.R.transposed() * from;
+    builder_.say("The direction of the parallel axes, seen from behind " + pairNames() + ":");
+    TrigMatrix f = Z(outline_.pair + 1).R.transposed() * from;
     const char* names[3] = {"hx", "hy", "hz"};
     for (int i = 0; i < 3; ++i) f(i, 0) = builder_.named(names[i], f(i, 0));
-    const TrigMatrix e = first.Z.R.transposed() * to;
-    const TrigMatrix K = first.Z.R.transposed() * second.Z.R;
+    const TrigMatrix e = Z(outline_.pair).R.transposed() * to;
+    const TrigMatrix K = Z(outline_.pair).R.transposed() * Z(outline_.pair + 1).R;
     const TrigMatrix image = K.transposed() * (builder_.motion(first).R.transposed() * e);
     if (!builder_.solveMiddle(first, f, image(2, 0))) return false;
     builder_.turnBetween(second, f(0, 0), f(1, 0), image(0, 0), image(1, 0));
@@ -112,9 +105,9 @@ class ParallelWriter {
     for (int i = k + 3; i < 6; ++i) after = after * turn(i);
     TrigPose Q = target_ * after.inverse();
     if (isBefore()) Q = turn(0).inverse() * Q;
-    Q = axis(k).Z.inverse() * Q * axis(k + 2).Z;
-    const TrigPose K2 = axis(k).Z.inverse() * axis(k + 1).Z;
-    const TrigPose K3 = axis(k + 1).Z.inverse() * axis(k + 2).Z;
+    Q = Z(k).inverse() * Q * Z(k + 2);
+    const TrigPose K2 = Z(k).inverse() * Z(k + 1);
+    const TrigPose K3 = Z(k + 1).inverse() * Z(k + 2);
     builder_.say("The place of the third parallel axis, seen from the first:");
     const TrigPolynomial u = builder_.named("u", Q.p(0, 0));
     const TrigPolynomial v = builder_.named("v", Q.p(1, 0));
@@ -147,6 +140,7 @@ class ParallelWriter {
   InverseBuilder& builder_;
   const InverseOutline& outline_;
   std::vector<InverseAxis> axes_;
+  std::vector<TrigPose> Z_;  ///< Frames on them at zero, in the table's first frame.
   TrigPose target_;
 };
 

@@ -29,25 +29,25 @@ bool areParallel(const InverseAxis& a, const InverseAxis& b) {
 /// J1 K1 J2 K2 J3 s = g, in the frame of the first axis.
 class PositionWriter {
  public:
-  PositionWriter(InverseBuilder& builder, Axes axes, TrigMatrix start, TrigMatrix goal)
+  PositionWriter(InverseBuilder& builder, Axes axes, InversePoint start, InversePoint goal)
       : builder_(builder),
         axes_(std::move(axes)),
         start_(std::move(start)),
         goal_(std::move(goal)),
         K1_(builder.identity()),
         K2_(builder.identity()),
-        g_(goal_),
-        F_(start_) {}
+        g_(goal_.p),
+        F_(start_.p) {}
 
   bool write() {
     orderAxes();
     if (axes_[0].slides && axes_[1].slides) return writeThreeSlides();
     const bool turns = !axes_[0].slides && !axes_[1].slides;
     if (turns && !alignFeet()) return false;
-    K1_ = axes_[0].Z.inverse() * axes_[1].Z;
-    K2_ = axes_[1].Z.inverse() * axes_[2].Z;
-    takePoints();
+    K1_ = builder_.relative(axes_[0], axes_[1]);
+    K2_ = builder_.relative(axes_[1], axes_[2]);
     if (axes_[0].slides) return writeSlideTurnSlide();
+    takePoints();
     if (!turns) {
       return builder_.isZero(K1_.R(2, 2)) ? writeSlideAcross() : writeTurnAndSlide();
     }
@@ -56,7 +56,7 @@ class PositionWriter {
     const bool third_parallel = !axes_[2].slides && areParallel(axes_[1], axes_[2]);
     if (relation.orthogonal && third_parallel) return writeArmPlane();
     if (relation.parallel) return writeParallelTurns();
-    return relation.intersecting && writeMeetingTurns();
+    return relation.intersecting ? writeMeetingTurns() : writeSkewTurns(builder_, axes_, K1_, F_, g_);
   }
 
  private:
@@ -78,29 +78,29 @@ class PositionWriter {
   bool alignFeet() {
     InverseAxis& first = axes_[0];
     InverseAxis& second = axes_[1];
-    const bool neighbours = std::abs(first.joint - second.joint) == 1;
-    if (neighbours) {
-      InverseAxis& later = first.joint < second.joint ? second : first;
-      ExactAngle back = builder_.offsetAbout(later.joint);
+    if (builder_.isDhRow(first.place) && builder_.isDhRow(second.place) && std::abs(first.place - second.place) == 1) {
+      InverseAxis& later = first.place < second.place ? second : first;
+      ExactAngle back = builder_.offsetAbout(later.place);
       for (auto& share : back.symbols) share.second = -share.second;
       back.steps = -back.steps;
-      later.Z = later.Z * builder_.shiftAlongZ(-builder_.offsetAlong(later.joint));
-      later.Z.R = later.Z.R * builder_.rotationAboutZ(back);
+      later.local = later.local * builder_.shiftAlongZ(-builder_.offsetAlong(later.place));
+      later.local.R = later.local.R * builder_.rotationAboutZ(back);
       return true;
     }
     if (!areParallel(first, second)) return false;
-    const TrigPose K = first.Z.inverse() * second.Z;
-    second.Z = second.Z * builder_.shiftAlongZ(-(K.p(2, 0) * K.R(2, 2)));
+    const TrigPose K = builder_.relative(first, second);
+    second.local = second.local * builder_.shiftAlongZ(-(K.p(2, 0) * K.R(2, 2)));
     return true;
   }
 
   /// The goal, or where the axes run from the tip the start, depends on the target: its coordinates get names.
   void takePoints() {
-    g_ = times(axes_[0].Z.inverse(), goal_);
-    TrigMatrix s = times(axes_[2].Z.inverse(), start_);
+    g_ = builder_.seenFrom(axes_[0], goal_);
+    TrigMatrix s = builder_.seenFrom(axes_[2], start_);
+    const bool is_fixed = builder_.isConstant(goal_.p(0, 0)) && builder_.isConstant(goal_.p(1, 0));
     const char* names[3] = {"wx", "wy", "wz"};
     for (int i = 0; i < 3; ++i) {
-      TrigPolynomial& entry = builder_.isConstant(goal_(0, 0)) && builder_.isConstant(goal_(1, 0)) ? s(i, 0) : g_(i, 0);
+      TrigPolynomial& entry = is_fixed ? s(i, 0) : g_(i, 0);
       entry = builder_.named(names[i], entry);
     }
     F_ = times(K2_, times(builder_.motion(axes_[2]), s));
@@ -162,10 +162,29 @@ class PositionWriter {
     const TrigPolynomial left = g_(2, 0) - rest(2, 0);
     TrigMatrix across = along * rest + left * K1_.R.column(2);
     builder_.say("The distance from the first axis gives the third joint:");
-    if (!builder_.solve(axes_[2], squareAcross(across) - along * along * squareAcross(g_))) return false;
+    if (!builder_.solve(axes_[2], squareAcross(across) - along * along * squareAcross(g_)) && !solveAcross(across))
+      return false;
     builder_.say("The height along it:");
     if (!builder_.solve(axes_[1], carried()(2, 0) - g_(2, 0))) return false;
     finishFirst();
+    return true;
+  }
+
+  /// The same where the third joint turns: a quartic.
+  bool solveAcross(const TrigMatrix& across) {
+    builder_.say(
+        "What " + builder_.namesOf({axes_[2].place}) +
+        " carries is brought to the goal's height by the slide; then it lies at (u, v) from the first axis, both times "
+        "the cosine between slide and axis. " +
+        builder_.marksOf(axes_[2]) + ":");
+    const auto u = builder_.formOf(axes_[2], "u", across(0, 0));
+    const auto v = builder_.formOf(axes_[2], "v", across(1, 0));
+    if (!u || !v) return false;
+    const TrigPolynomial& along = K1_.R(2, 2);
+    builder_.say("The distance from that axis is the goal's: a quartic gives " + builder_.namesOf({axes_[2].place}) +
+                 ":");
+    const Formula radius = builder_.formula(along * along) * builder_.formula(squareAcross(g_));
+    builder_.solveSquares(axes_[2], {*u, *v}, {radius, Formula(), Formula()});
     return true;
   }
 
@@ -186,20 +205,31 @@ class PositionWriter {
     return true;
   }
 
-  /// The height along the turning axis gives one slide by the other, the distance from it the other.
+  /// The height along the turning axis gives one slide by the other, the distance from it the other. Whichever slide
+  /// moves faster along that axis is the one that the height gives.
   bool writeSlideTurnSlide() {
+    const auto share = [this](std::size_t i) { return std::abs(axes_[1].line.direction.dot(axes_[i].line.direction)); };
+    if (share(2) < share(0)) {
+      std::swap(axes_[0], axes_[2]);
+      std::swap(start_, goal_);
+      for (InverseAxis& axis : axes_) axis.sense = -axis.sense;
+      K1_ = builder_.relative(axes_[0], axes_[1]);
+      K2_ = builder_.relative(axes_[1], axes_[2]);
+    }
+    takePoints();
     TrigMatrix H = times(K1_.inverse(), times(builder_.motion(axes_[0]).inverse(), g_));
-    InverseBuilder::Parts parts{builder_.number(0), builder_.number(0), builder_.number(0)};
-    const TrigPolynomial rise = F_(2, 0) - H(2, 0);
-    if (!builder_.partsOf(axes_[2], rise, parts)) return false;
-    const bool unit = parts.a == builder_.number(1) || parts.a == builder_.number(-1);
-    if (!unit) return false;
-    const TrigPolynomial third = parts.a == builder_.number(1) ? -parts.k : parts.k;
+    InverseBuilder::Parts height{builder_.number(0), builder_.number(0), builder_.number(0)};
+    if (!builder_.partsOf(axes_[2], F_(2, 0) - H(2, 0), height) || !builder_.isConstant(height.a)) return false;
+    // Both sides of the distance times the square of how fast the height changes.
     TrigMatrix F = F_;
-    for (int i = 0; i < 3; ++i) F(i, 0) = F(i, 0).atScalar(axes_[2].symbol, third);
+    for (int i = 0; i < 3; ++i) {
+      InverseBuilder::Parts parts = height;
+      if (!builder_.partsOf(axes_[2], F_(i, 0), parts)) return false;
+      F(i, 0) = height.a * parts.k - height.k * parts.a;
+    }
     builder_.say("The distance from the turning axis, then the height along it:");
-    if (!builder_.solve(axes_[0], squareAcross(F) - squareAcross(H))) return false;
-    builder_.setJoint(axes_[2].symbol, builder_.formula(third));
+    if (!builder_.solve(axes_[0], squareAcross(F) - height.a * height.a * squareAcross(H))) return false;
+    if (!builder_.solve(axes_[2], F_(2, 0) - H(2, 0))) return false;
     builder_.turnBetween(axes_[1], F_(0, 0), F_(1, 0), H(0, 0), H(1, 0));
     return true;
   }
@@ -208,9 +238,11 @@ class PositionWriter {
     TrigMatrix directions(builder_.ring(), 3, 3);
     for (int i = 0; i < 3; ++i) {
       const InverseAxis& axis = axes_[static_cast<std::size_t>(i)];
-      directions.setBlock(0, i, builder_.number(axis.sense) * axis.Z.R.column(2));
+      const TrigMatrix z = builder_.between(0, axis.frame).R * axis.local.R.column(2);
+      directions.setBlock(0, i, builder_.number(axis.sense) * z);
     }
-    const TrigMatrix way = goal_ - start_;
+    const auto inBase = [this](const InversePoint& point) { return times(builder_.between(0, point.frame), point.p); };
+    const TrigMatrix way = inBase(goal_) - inBase(start_);
     const TrigPolynomial whole = determinant(directions);
     for (int i = 0; i < 3; ++i) {
       const InverseAxis& axis = axes_[static_cast<std::size_t>(i)];
@@ -224,8 +256,8 @@ class PositionWriter {
 
   InverseBuilder& builder_;
   Axes axes_;
-  TrigMatrix start_;
-  TrigMatrix goal_;
+  InversePoint start_;
+  InversePoint goal_;
   TrigPose K1_;
   TrigPose K2_;
   TrigMatrix g_;
@@ -234,7 +266,7 @@ class PositionWriter {
 
 }  // namespace
 
-bool writePosition(InverseBuilder& builder, std::array<InverseAxis, 3> axes, TrigMatrix start, TrigMatrix goal) {
+bool writePosition(InverseBuilder& builder, std::array<InverseAxis, 3> axes, InversePoint start, InversePoint goal) {
   return PositionWriter(builder, std::move(axes), std::move(start), std::move(goal)).write();
 }
 

@@ -11,9 +11,11 @@
 
 #include <gtest/gtest.h>
 
+#include "quartic_arms.h"
 #include "screwline/ik/method_summary.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/kinematics/jacobian.h"
+#include "screwline/kinematics/task_selection.h"
 #include "screwline/spatial/rotation.h"
 #include "screwline/symbolic/cpp_header.h"
 #include "shipped_robots.h"
@@ -26,9 +28,24 @@ constexpr double kAgreement = 1e-12;
 constexpr double kSameSolution = 1e-7;  // [rad, m]
 
 const std::vector<std::string>& robots() {
-  static const std::vector<std::string> names = {"rrp_spherical", "orienting_3r", "scara", "rrprrr",
-                                                 "puma560",       "stanford_arm", "ur5",   "panda"};
+  static const std::vector<std::string> names = {"rrp_spherical", "orienting_3r", "scara", "rrprrr",    "puma560",
+                                                 "stanford_arm",  "ur5",          "panda", "gen3_7dof", "jaco2_6dof"};
   return names;
+}
+
+/// These, an arm with five rows, and arms with a quartic of a turn and of a slide.
+std::vector<test::ShippedRobot> arms() {
+  std::vector<test::ShippedRobot> all;
+  for (const std::string& name : robots()) all.push_back(test::shippedRobot(SCREWLINE_SOURCE_DIR, name));
+  const SerialChain youbot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "youbot_arm").chain;
+  all.push_back({"youbot_arm", youbot, deriveTask(youbot)});
+  for (const int structure : {4, 1}) {
+    const test::ArmMaker::Arm arm = test::QuarticArmMaker(320).make(structure);
+    ChainDescription description = arm.chain.description();
+    description.name = "quartic_" + std::to_string(structure);
+    all.push_back({description.name, SerialChain(description), arm.task});
+  }
+  return all;
 }
 
 /// Prints, for each line of joint values, pose and Jacobian and then the inverse solutions of that pose.
@@ -57,12 +74,13 @@ void read(Joints& q) {
 
 )";
 
-std::string callOf(const std::string& name, bool inverse) {
+std::string callOf(const std::string& name, const std::optional<InverseFormulas>& inverse) {
   std::string text = "void run_" + name + "() {\n  " + name + "::Joints q{};\n  read(q);\n  const " + name +
                      "::Pose X = " + name + "::forward(q);\n  print(X, " + name + "::jacobian(q));\n";
   if (!inverse) return text + "  std::printf(\"0\\n\");\n}\n\n";
-  return text + "  const auto solutions = " + name +
-         "::inverse(X);\n  std::printf(\"%d \", static_cast<int>(solutions.size()));\n"
+  const std::string given = inverse->given >= 0 ? ", q[" + std::to_string(inverse->given) + "]" : "";
+  return text + "  const auto solutions = " + name + "::inverse(X" + given +
+         ");\n  std::printf(\"%d \", static_cast<int>(solutions.size()));\n"
          "  for (const auto& solution : solutions) {\n"
          "    for (const double value : solution.q) std::printf(\"%.17g \", value);\n  }\n  "
          "std::printf(\"\\n\");\n}\n\n";
@@ -107,7 +125,7 @@ void expectAgreement(const test::ShippedRobot& robot, const InverseKinematics* i
     found.emplace_back(robot.chain.size());
     for (int i = 0; i < robot.chain.size(); ++i) found.back()[i] = next();
   }
-  const std::vector<VectorX> expected = everySolution(*ik)(X);
+  const std::vector<VectorX> expected = everySolution(*ik)(X, q);
   EXPECT_EQ(found.size(), expected.size());
   for (const VectorX& solution : expected) EXPECT_LE(nearest(robot.chain, solution, found), kSameSolution);
 }
@@ -133,21 +151,20 @@ TEST(SymbolicCpp, HeadersCompileAndAgreeWithTheCore) {
   std::string includes;
   std::string functions;
   std::string calls;
-  std::vector<test::ShippedRobot> all;
+  const std::vector<test::ShippedRobot> all = arms();
   std::vector<bool> has_inverse;
   std::ofstream input(folder + "/input.txt");
   input.precision(17);
-  for (const std::string& name : robots()) {
-    all.push_back(test::shippedRobot(SCREWLINE_SOURCE_DIR, name));
-    const std::optional<InverseFormulas> inverse = formulasOf(all.back());
+  for (const test::ShippedRobot& robot : all) {
+    const std::optional<InverseFormulas> inverse = formulasOf(robot);
     has_inverse.push_back(inverse.has_value());
-    std::ofstream(folder + "/" + name + ".h") << cppHeaderOf(all.back().chain, inverse);
-    includes += "#include \"" + name + ".h\"\n";
-    const std::string space = all.back().chain.name();
-    functions += callOf(space, inverse.has_value());
+    std::ofstream(folder + "/" + robot.name + ".h") << cppHeaderOf(robot.chain, inverse);
+    includes += "#include \"" + robot.name + ".h\"\n";
+    const std::string space = robot.chain.name();
+    functions += callOf(space, inverse);
     for (int k = 0; k < kConfigurations; ++k) {
       calls += "  run_" + space + "();\n";
-      input << configuration(all.back().chain, k).transpose().format(Eigen::IOFormat(17)) << "\n";
+      input << configuration(robot.chain, k).transpose().format(Eigen::IOFormat(17)) << "\n";
     }
   }
   input.close();
@@ -171,7 +188,7 @@ TEST(SymbolicCpp, HeadersCompileAndAgreeWithTheCore) {
       expectAgreement(all[r], has_inverse[r] ? &ik : nullptr, configuration(all[r].chain, k), stream);
     }
   }
-  EXPECT_EQ(with_inverse, static_cast<int>(all.size()) - 1);  // All but the redundant one.
+  EXPECT_EQ(with_inverse, static_cast<int>(all.size()) - 1);  // All but the one that is solved by elimination.
   run("rm -r '" + folder + "'");
 }
 

@@ -81,7 +81,8 @@ class InverseKinematics {
   bool complete() const;
   /// The branch names that solutions can have; empty where the method does not name them.
   std::vector<std::string> branches() const;
-  /// The closed form, where there is one for all rows of the task: for whoever writes it down.
+  /// The closed form, where there is one for all rows of the task, of seven joints for one of them given: for whoever
+  /// writes it down.
   std::optional<InverseOutline> outline() const;
 
   /// All solutions of one pose. Verified: every solution's errors come from forward kinematics and are below 1e-9.

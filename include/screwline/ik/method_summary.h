@@ -13,7 +13,8 @@ namespace screwline {
 /// branches that solutions can have. No formulas. Allocates.
 std::vector<std::string> summaryOf(const InverseKinematics& ik);
 
-/// All solutions of a pose, limits not looked at. @pre `ik` outlives what is returned.
+/// All solutions of a pose, limits not looked at; of a chain of seven joints those with the value of the parameter
+/// joint that is given, where outline() names it. @pre `ik` outlives what is returned.
 InverseSolver everySolution(const InverseKinematics& ik);
 
 /// What is written about a solver, which it keeps alive.

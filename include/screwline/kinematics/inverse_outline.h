@@ -36,10 +36,16 @@ struct InverseOutline {
   int first_parallel = 0;
   int single = 0;
   int pair = 0;  ///< First of the two.
+  /// The first or the last joint, of which the value is given; -1: none. All numbers above count the others only.
+  int given = -1;
+  /// 0, 1, 2: the axis x, y, z of the tool about which the task lets it turn: one joint more, behind the others. -1:
+  /// none.
+  int tool_turn = -1;
+  int open_joint = -1;  ///< The joint that turns the tool so and does nothing else: any value does. -1: none.
 };
 
-/// All solutions of a pose, limits not looked at.
-using InverseSolver = std::function<std::vector<VectorX>(const Pose&)>;
+/// All solutions of a pose, limits not looked at. Where the value of a joint is given it is that in `given` (n values).
+using InverseSolver = std::function<std::vector<VectorX>(const Pose& target, const VectorX& given)>;
 
 /// A solver as it is written about.
 struct InverseMethod {

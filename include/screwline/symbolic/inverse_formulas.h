@@ -15,7 +15,7 @@
 namespace screwline {
 
 /// One line of an inverse solution: symbol = value. A line with a sign gives two branches, value has the symbol of the
-/// sign as a factor.
+/// sign as a factor. A line with an equation gives a branch for each real root of it.
 struct InverseStep {
   int symbol = 0;
   Formula value;
@@ -23,7 +23,11 @@ struct InverseStep {
   Formula radicand;              ///< Of a line with a sign: value = sign sqrt(radicand). Below zero: out of reach.
   bool reach = false;            ///< The radicand can become negative.
   std::vector<Formula> free_if;  ///< Of a joint: where all of these are zero any value does.
-  std::string before;            ///< What this line and the next ones are about; may be empty.
+  /// Of a joint that takes more than a square root, five: of 1, cos, sin and, of twice the angle, cos, sin; of 1, q,
+  /// ... q^4 for a slide. Their sum is zero. Else empty. `value` is not used.
+  std::vector<Formula> equation;
+  int tangent = -1;    ///< Symbol for tan(angle/2), in which the equation of a turn is a quartic.
+  std::string before;  ///< What this line and the next ones are about; may be empty.
 };
 
 /// Inverse kinematics as lines to be worked off from the first to the last, each in the target's entries, the chain's
@@ -31,14 +35,17 @@ struct InverseStep {
 struct InverseFormulas {
   SymbolTable symbols;  ///< The chain's first, with the numbers of SymbolicChain; joints are 0..joints-1.
   int joints = 0;
+  int given = -1;       ///< Joint whose value is given: the others are solved for; -1: none.
+  int open_joint = -1;  ///< Joint that may always take any value; -1: none.
+  int tool_turn = -1;   ///< Symbol for the tool's turn about the direction that the task asks for; -1: there is none.
   std::array<int, 12> target{};  ///< Symbols of px, py, pz, then r11, r12, ... r33: the tip in the base link.
   std::vector<InverseStep> steps;
   std::vector<bool> revolute;
   double length = 1.0;  ///< [m] the chain's, by which a length counts as zero.
 };
 
-/// The formulas of the plan that `outline` tells of, exact in the chain's symbols. Empty where a step of it has no
-/// solution in square roots and arc tangents (a quartic), or where one of its cases is not written. Allocates.
+/// The formulas of the plan that `outline` tells of, exact in the chain's symbols. Empty where one of its cases is not
+/// written. Allocates.
 /// @throws DerivationStopped
 std::optional<InverseFormulas> inverseFormulasOf(const SerialChain& chain, const Task& task,
                                                  const InverseOutline& outline, const SymbolicOptions& options = {},
@@ -50,7 +57,8 @@ struct InverseSolution {
   unsigned free = 0;  ///< Bit i: joint i may take any value; it has the preferred one, and others follow from it.
 };
 
-/// Works the formulas off at a pose. Solutions that are the same within 1e-6 come once. `preferred` sets free joints.
+/// Works the formulas off at a pose. Solutions that are the same within 1e-6 come once. `preferred` sets free joints,
+/// and the joint whose value is given.
 std::vector<InverseSolution> evaluate(const InverseFormulas& formulas, const Pose& target, const VectorX& preferred);
 
 /// How formulas compare with a solver at random reachable poses.
