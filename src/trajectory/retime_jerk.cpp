@@ -270,21 +270,6 @@ std::optional<Nodes> narrowedNodes(const JointPath& piece, const LeadLaw& lead, 
   return best;
 }
 
-/// The rate at which the path's third derivative alone uses the jerk limits: where a corner is narrow, a lead that
-/// knows nothing of jerk would pass it so fast that its few cells there had to be slowed down a hundredfold.
-RateBound steadyRate(const JointPath& path, const Limits& limits, const RateBound& asked) {
-  return [&path, &limits, &asked](double from, double to) {
-    const Eigen::Index n = path.joints();
-    VectorX q(n), first(n), second(n), third(n);
-    double rate = asked ? asked(from, to) : kInfinity;
-    for (const double share : {0.001, 0.5, 0.999}) {  // Beside the breakpoints, where it steps.
-      path.at(from + share * (to - from), q.data(), first.data(), second.data(), third.data());
-      rate = std::min(rate, std::cbrt(1.0 / (third.array().abs() / limits.jerk.array()).maxCoeff()));
-    }
-    return rate;
-  };
-}
-
 /// One smooth part from u = `from` on, of so many cells. @return nothing where its ends are too fast; if velocities or
 /// accelerations alone forbid them, `refused` says what these allow, else to which share of both one comes.
 std::optional<Nodes> partNodes(const JointPath& piece, double from, const Limits& limits, RetimeOptions options,

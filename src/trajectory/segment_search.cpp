@@ -159,7 +159,8 @@ class SegmentSearch {
   /// and equal ones the best is where the search starts.
   void startLessUnequal() {
     const VectorX given = lengths_;
-    for (const double share : {0.5, 1.0}) balance(shifted(given, -share * given.array().log().matrix()), targets_, 1);
+    for (const double share : {0.25, 0.5, 1.0})
+      balance(shifted(given, -share * given.array().log().matrix()), targets_, 1);
   }
 
   /// For each group of segments that share their time.
