@@ -67,6 +67,10 @@ Corner describeCorner(double reach, double middle, const VectorX& before, const 
 }
 
 void noteCorners(const std::vector<Corner>& corners, double radius, std::vector<std::string>& notes) {
+  if (radius == 0.0) {
+    notes.push_back("blend_radius is 0: the motion stops where the lines between waypoints bend");
+    return;
+  }
   double deviation = 0.0;
   double off_lines = 0.0;
   double least = radius;

@@ -152,7 +152,7 @@ Way wayOf(const ProfileContext& context) {
 
 /// Under jerk limits narrow corners take more cells than smooth splines do.
 int cornerCells(const JointPath& path) {
-  constexpr std::size_t kEach = 200;
+  constexpr std::size_t kEach = 400;
   constexpr std::size_t kMost = 4000;
   return static_cast<int>(std::min(kMost, kEach * (path.breaks().size() - 1)));
 }

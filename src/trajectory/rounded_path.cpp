@@ -57,11 +57,12 @@ double lengthOf(const std::vector<JointLeg>& legs) {
 
 /// No blend, and no line between two of them, is so short that it could not be timed.
 void keepTimeable(const std::vector<JointLeg>& legs, std::vector<double>& reaches) {
-  const double least = kShortest * lengthOf(legs);
+  const double whole = lengthOf(legs);
+  const double least = kShortest * whole;
   for (double& reach : reaches) reach = reach < least ? 0.0 : reach;
   for (std::size_t k = 0; k < legs.size(); ++k) {
     const double rest = legs[k].length - reaches[k] - reaches[k + 1];
-    if (rest >= least || rest <= kNothing * least) continue;
+    if (rest >= least || rest <= kNothing * whole) continue;
     double& wider = reaches[k] > reaches[k + 1] ? reaches[k] : reaches[k + 1];
     wider = wider < 2.0 * least ? 0.0 : wider - least;
   }

@@ -40,11 +40,11 @@ MatrixX columns(const std::vector<VectorX>& way) {
   return positions;
 }
 
-PlanRequest rounded(const MatrixX& way, const Limits& limits, double radius, bool jerk = false) {
+PlanRequest rounded(const MatrixX& way, const Limits& limits, double radius, bool jerk = false, int grid = 0) {
   std::vector<VectorX> waypoints;
   for (Eigen::Index k = 0; k < way.cols(); ++k) waypoints.push_back(way.col(k));
   PlanRequest r = request("path_time_optimal", waypoints, limits);
-  r.parameters = {{"blend_radius", radius}, {"hold_jerk", jerk ? 1.0 : 0.0}};
+  r.parameters = {{"blend_radius", radius}, {"hold_jerk", jerk ? 1.0 : 0.0}, {"grid_points", 1.0 * grid}};
   return r;
 }
 
@@ -165,7 +165,7 @@ TEST(RoundedMotion, KeepsAllLimitsAndIsFasterThanStopsAndThanTheSameWithLess) {
   for (int trial = 0; trial < 12; ++trial) {
     const int joints = random.integer(2, 6);
     const Limits limits = randomLimits(random, joints);
-    const MatrixX way = randomWay(random, joints, random.integer(3, 6));
+    const MatrixX way = randomWay(random, joints, random.integer(3, 4));
     const bool jerk = trial % 4 == 3;
     const std::string what = "seed 203, trial " + std::to_string(trial);
     double before = plan(rounded(way, limits, 0.0, jerk)).trajectory.duration();
@@ -200,8 +200,9 @@ TEST(RoundedMotion, RadiusZeroIsTheLinesWithStopsAndTheWayBackTakesAsLong) {
   EXPECT_NEAR(stops.trajectory.duration(), sum, 1e-3 * sum);
   EXPECT_LT(stops.via_joint_errors.cwiseAbs().maxCoeff(), 1e-9);
   for (const bool jerk : {false, true}) {
-    const double there = plan(rounded(way, limits, 0.3, jerk)).trajectory.duration();
-    EXPECT_NEAR(plan(rounded(way.rowwise().reverse(), limits, 0.3, jerk)).trajectory.duration(), there, 1e-3 * there);
+    const double there = plan(rounded(way, limits, 0.3, jerk, 1000)).trajectory.duration();
+    EXPECT_NEAR(plan(rounded(way.rowwise().reverse(), limits, 0.3, jerk, 1000)).trajectory.duration(), there,
+                1e-3 * there);
   }
 }
 
@@ -241,7 +242,7 @@ TEST(RoundedMotion, AnyRadiusAndAnyWayIsPlannedOrRefusedInWords) {
     const Limits limits = randomLimits(random, joints);
     const std::string what = "seed 205, trial " + std::to_string(trial);
     try {
-      const PlanResult result = plan(rounded(way, limits, radius, trial % 40 == 0));
+      const PlanResult result = plan(rounded(way, limits, radius, trial % 40 == 0, 600));
       EXPECT_LE(denseUse(result.trajectory, limits, 500, 2), 1.0 + 1e-6) << what;
     } catch (const std::exception& error) {
       FAIL() << what << ", radius " << radius << ": " << error.what();
