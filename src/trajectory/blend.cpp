@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "joint_legs.h"
 #include "screwline/exception.h"
 #include "screwline/trajectory/format.h"
 
@@ -11,50 +13,37 @@ namespace screwline {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSameDirection = 1e-12;  // Of unit vectors: what differs by less goes straight on.
+constexpr double kNoStep = 1e-12;  // Of the time: less is what rounding leaves of a line that corners share.
 
-/// A line between two waypoints that differ.
-struct Leg {
-  Eigen::Index goal = 0;  ///< Column of the first waypoint at its end.
-  VectorX direction;      ///< Unit length.
-  double length = 0.0;
-  double speed = kInfinity;         ///< Greatest along it that all joints allow.
-  double acceleration = kInfinity;  ///< The same.
+/// A line between two waypoints that differ, with what all joints allow along it.
+struct Leg : JointLeg {
+  double speed = kInfinity;
+  double acceleration = kInfinity;
 };
 
 /// Where two legs meet. With x the square of the speed, the blend reaches x * rest / 2 to either side.
-struct Corner {
+struct Passage {
   VectorX bend;         ///< Difference of the two directions.
   double rest = 0.0;    ///< [s^2/rad] Time of the blend per speed: the slowest joint's |bend| / acceleration.
   double bound = 0.0;   ///< Of the reach.
   double square = 0.0;  ///< x.
-  bool halved = false;  ///< Half of a leg decides the bound.
 
   double reach() const { return 0.5 * square * rest; }
 };
 
-std::vector<Leg> legsThrough(const MatrixX& positions, const Limits& limits) {
-  std::vector<Leg> legs;
-  for (Eigen::Index k = 1; k < positions.cols(); ++k) {
-    const VectorX delta = positions.col(k) - positions.col(k - 1);
-    Leg leg;
-    leg.length = delta.norm();
-    if (leg.length == 0.0) continue;
-    leg.goal = k;
-    leg.direction = delta / leg.length;
-    for (Eigen::Index j = 0; j < delta.size(); ++j) {
-      const double share = std::abs(leg.direction[j]);
-      if (share == 0.0) continue;
-      if (!std::isfinite(limits.acceleration[j])) {
-        throw InputError(AnswerCode::kInvalidGoal, indexed("acceleration_limits", static_cast<std::size_t>(j)) +
-                                                       " is infinite, blend_radius needs a finite one");
-      }
-      leg.speed = std::min(leg.speed, limits.velocity[j] / share);
-      leg.acceleration = std::min(leg.acceleration, limits.acceleration[j] / share);
+Leg limited(JointLeg line, const Limits& limits) {
+  Leg leg{std::move(line)};
+  for (Eigen::Index j = 0; j < leg.direction.size(); ++j) {
+    const double share = std::abs(leg.direction[j]);
+    if (share == 0.0) continue;
+    if (!std::isfinite(limits.acceleration[j])) {
+      throw InputError(AnswerCode::kInvalidGoal, indexed("acceleration_limits", static_cast<std::size_t>(j)) +
+                                                     " is infinite, blend_radius needs a finite one");
     }
-    legs.push_back(std::move(leg));
+    leg.speed = std::min(leg.speed, limits.velocity[j] / share);
+    leg.acceleration = std::min(leg.acceleration, limits.acceleration[j] / share);
   }
-  return legs;
+  return leg;
 }
 
 /// [s] From rest to rest along all legs with a stop at each end.
@@ -72,50 +61,47 @@ double stopDuration(const std::vector<Leg>& legs) {
 /// limits tolerate. Gentler then, or slower where its reach is bounded.
 constexpr double kShortestBlend = 1e-6;
 
-void takeAtLeast(double time, Corner& corner) {
+void takeAtLeast(double time, Passage& corner) {
   const double speed = std::sqrt(corner.square);
-  if (corner.rest == 0.0 || !std::isfinite(speed) || speed * corner.rest >= time) return;
+  if (corner.rest == 0.0 || corner.bound == 0.0 || !std::isfinite(speed) || speed * corner.rest >= time) return;
   const double bounded = std::min(speed, 2.0 * corner.bound / time);
   corner.square = bounded * bounded;
   corner.rest = time / bounded;
 }
 
-Corner cornerBetween(const Leg& before, const Leg& after, const Limits& limits, double radius) {
-  Corner corner;
-  corner.bend = after.direction - before.direction;
-  if (corner.bend.cwiseAbs().maxCoeff() > kSameDirection) {
-    corner.rest = corner.bend.cwiseAbs().cwiseQuotient(limits.acceleration).maxCoeff();
-  }
-  const double half = 0.5 * std::min(before.length, after.length);
-  corner.halved = half < radius;
-  corner.bound = std::min(half, radius);
+Passage passageBetween(const Leg& before, const Leg& after, const Limits& limits, double bound) {
+  Passage passage;
+  passage.bend = after.direction - before.direction;
+  if (bendBetween(before.direction, after.direction) != Bend::kNone)
+    passage.rest = passage.bend.cwiseAbs().cwiseQuotient(limits.acceleration).maxCoeff();
+  passage.bound = bound;
   const double speed = std::min(before.speed, after.speed);
-  corner.square = std::min(speed * speed, corner.rest > 0.0 ? 2.0 * corner.bound / corner.rest : kInfinity);
-  corner.halved = corner.halved && corner.square < speed * speed;
-  return corner;
+  passage.square = std::min(speed * speed, passage.rest > 0.0 ? 2.0 * bound / passage.rest : kInfinity);
+  return passage;
 }
 
 /// The greatest square at the corner from which, or to which, the speed can change on the leg to a neighbour's.
-double reachable(const Corner& corner, const Corner& neighbour, const Leg& leg) {
+double reachable(const Passage& corner, const Passage& neighbour, const Leg& leg) {
   const double room = 2.0 * leg.acceleration * (leg.length - neighbour.reach());
   return (neighbour.square + room) / (1.0 + leg.acceleration * corner.rest);
 }
 
-/// Corners between the legs, with one of rest at either end.
-std::vector<Corner> cornersOf(const std::vector<Leg>& legs, const Limits& limits, double radius) {
-  std::vector<Corner> corners(legs.size() + 1);
+/// Passages between the legs, with one of rest at either end.
+std::vector<Passage> passagesOf(const std::vector<Leg>& legs, const std::vector<double>& reaches,
+                                const Limits& limits) {
+  std::vector<Passage> passages(legs.size() + 1);
   const double shortest = kShortestBlend * stopDuration(legs);
   for (std::size_t k = 1; k < legs.size(); ++k) {
-    corners[k] = cornerBetween(legs[k - 1], legs[k], limits, radius);
-    takeAtLeast(shortest, corners[k]);
+    passages[k] = passageBetween(legs[k - 1], legs[k], limits, reaches[k]);
+    takeAtLeast(shortest, passages[k]);
   }
   for (std::size_t k = legs.size() - 1; k > 0; --k) {
-    corners[k].square = std::min(corners[k].square, reachable(corners[k], corners[k + 1], legs[k]));
+    passages[k].square = std::min(passages[k].square, reachable(passages[k], passages[k + 1], legs[k]));
   }
   for (std::size_t k = 1; k < legs.size(); ++k) {
-    corners[k].square = std::min(corners[k].square, reachable(corners[k], corners[k - 1], legs[k - 1]));
+    passages[k].square = std::min(passages[k].square, reachable(passages[k], passages[k - 1], legs[k - 1]));
   }
-  return corners;
+  return passages;
 }
 
 /// Gathers pieces of degree 2 by what they take of a leg, or by their control points.
@@ -127,7 +113,7 @@ class Layer {
     const double h = 2.0 * (to - from) / (v0 + v1);
     append(origin + from * direction, (v0 * h) * direction, (to - from - v0 * h) * direction, h);
   }
-  void parabola(const VectorX& waypoint, const Leg& before, const Corner& corner) {
+  void parabola(const VectorX& waypoint, const Leg& before, const Passage& corner) {
     const double reach = corner.reach();
     if (!(reach > 0.0)) return;
     append(waypoint - reach * before.direction, 2.0 * reach * before.direction, reach * corner.bend,
@@ -149,7 +135,7 @@ class Layer {
 
  private:
   void append(const VectorX& c0, const VectorX& c1, const VectorX& c2, double h) {
-    if (!(time() + h > time())) return;
+    if (!(h > kNoStep * time())) return;
     rows_.insert(rows_.end(), {c0, c1, c2});
     breaks_.push_back(time() + h);
   }
@@ -159,7 +145,7 @@ class Layer {
 };
 
 /// Faster, as fast as the leg allows, slower: between the speeds and reaches of its corners.
-void layLeg(const Leg& leg, const VectorX& origin, const Corner& first, const Corner& last, Layer& layer) {
+void layLeg(const Leg& leg, const VectorX& origin, const Passage& first, const Passage& last, Layer& layer) {
   const double from = first.reach();
   const double to = leg.length - last.reach();
   const double most = 0.5 * (2.0 * leg.acceleration * (to - from) + first.square + last.square);
@@ -172,33 +158,37 @@ void layLeg(const Leg& leg, const VectorX& origin, const Corner& first, const Co
   layer.line(origin, leg.direction, std::min(down, to), to, v, std::sqrt(last.square));
 }
 
-BlendedCorner described(const Corner& corner) {
-  const double reach = corner.reach();
-  return {reach, 0.25 * reach * corner.bend.norm(), std::sqrt(corner.square),
-          corner.halved && reach >= 0.999 * corner.bound};
+Corner described(const Leg& before, const Leg& after, const Passage& passage, double radius) {
+  const double reach = passage.reach();
+  Corner corner = describeCorner(reach, 0.25 * reach, before.direction, after.direction);
+  corner.stops = passage.square == 0.0;
+  corner.shortened = !corner.stops && passage.bound < radius && reach >= 0.999 * passage.bound;
+  return corner;
 }
 
 }  // namespace
 
 BlendedLines blendLines(const MatrixX& positions, const Limits& limits, double radius) {
-  const std::vector<Leg> legs = legsThrough(positions, limits);
-  const std::vector<Corner> corners = cornersOf(legs, limits, radius);
+  std::vector<JointLeg> lines = jointLegs(positions);
+  const std::vector<double> reaches = reachesOf(lines, radius);
+  std::vector<Leg> legs;
+  for (JointLeg& line : lines) legs.push_back(limited(std::move(line), limits));
+  const std::vector<Passage> passages = passagesOf(legs, reaches, limits);
   BlendedLines result;
   result.times = {0.0};
   result.corners.resize(static_cast<std::size_t>(positions.cols()));
   Layer layer;
   for (std::size_t k = 0; k < legs.size(); ++k) {
-    const VectorX origin = positions.col(legs[k].goal - 1);
-    layLeg(legs[k], origin, corners[k], corners[k + 1], layer);
+    layLeg(legs[k], positions.col(legs[k].start), passages[k], passages[k + 1], layer);
     const bool last = k + 1 == legs.size();
     const double begin = layer.time();
-    if (!last) layer.parabola(positions.col(legs[k].goal), legs[k], corners[k + 1]);
+    if (!last) layer.parabola(positions.col(legs[k].goal), legs[k], passages[k + 1]);
     const double instant = 0.5 * (begin + layer.time());
     const Eigen::Index next = last ? positions.cols() : legs[k + 1].goal;
     result.times.resize(static_cast<std::size_t>(legs[k].goal), result.times.back());
     for (Eigen::Index i = legs[k].goal; i < next; ++i) {
       result.times.push_back(instant);
-      if (!last) result.corners[static_cast<std::size_t>(i)] = described(corners[k + 1]);
+      if (!last) result.corners[static_cast<std::size_t>(i)] = described(legs[k], legs[k + 1], passages[k + 1], radius);
     }
   }
   result.motion = layer.finish(static_cast<int>(positions.rows()));

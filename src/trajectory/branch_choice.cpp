@@ -172,7 +172,7 @@ std::string describe(const BranchChoice& choice) {
 
 FollowedPath withTurns(const ProfileContext& context, const ToolPath& path, const BranchChoice& choice) {
   const FollowedBranch& branch = *choice.branch;
-  if (choice.turns == Turns::kNone) return FollowedPath(branch.curve);
+  if (choice.turns == Turns::kNone) return FollowedPath(branch.curve, 0.0, 0.0, branch.turns);
   PiecewisePolynomial curve = branch.curve;
   double lead = 0.0;
   double tail = 0.0;
@@ -196,7 +196,9 @@ FollowedPath withTurns(const ProfileContext& context, const ToolPath& path, cons
                          "', the joints have to turn in place at a singular end, where the tip's way stands still: "
                          "leave time_law empty, or give that waypoint as a pose");
   }
-  return FollowedPath(std::move(curve), lead, tail);
+  std::vector<Range> turns = branch.turns;
+  for (Range& turn : turns) turn = {turn.lower + lead, turn.upper + lead};
+  return FollowedPath(std::move(curve), lead, tail, std::move(turns));
 }
 
 }  // namespace screwline

@@ -8,6 +8,7 @@
 #include "curve_tracer.h"
 #include "screwline/trajectory/format.h"
 #include "singularity_names.h"
+#include "turn_in_place.h"
 
 namespace screwline {
 namespace {
@@ -42,6 +43,7 @@ class Follower {
   void begin(FollowResult& result);
   void beginInside(FollowResult& result);
   void carryOn(FollowedBranch& branch);
+  bool turnAtStop(std::size_t part, VectorX& y, FollowedBranch& branch);
   void explain(FollowedBranch& branch, const TracedCurve& last, double goal);
   void turn(FollowedBranch& branch) const;
   void name(FollowedBranch& branch) const;
@@ -129,7 +131,8 @@ void Follower::carryOn(FollowedBranch& branch) {
   for (std::size_t part = 0; part < path_.parts(); ++part) {
     system_.choosePart(part);
     const double goal = path_.partEnd(part);
-    const TracedCurve traced = tracer_.trace(y, 1.0, goal);
+    TracedCurve traced = tracer_.trace(y, 1.0, goal);
+    if (traced.end != TraceEnd::kGoal && part > 0 && turnAtStop(part, y, branch)) traced = tracer_.trace(y, 1.0, goal);
     if (traced.curve.segments() > 0) {
       branch.curve = branch.curve.segments() > 0 ? concatenate(branch.curve, traced.curve) : traced.curve;
     }
@@ -142,6 +145,45 @@ void Follower::carryOn(FollowedBranch& branch) {
     y[chain_.size()] = goal;
   }
   branch.end_u = path_.length();
+}
+
+/// At the stop where `part` begins, from the branch's joint values y to the nearest of those, with the same pose all
+/// the way between, from which the part goes on: solutions a little way inside, followed back, know them.
+/// @return whether there are any. Then y is inside, and the branch leads there.
+bool Follower::turnAtStop(std::size_t part, VectorX& y, FollowedBranch& branch) {
+  const int n = chain_.size();
+  const double from = path_.partStart(part);
+  const double u = from + std::min(kInside, 0.1 * (path_.partEnd(part) - from));
+  const VectorX here = y.head(n);
+  const double tolerance = 1e-6 * std::max(1.0, chain_.characteristicLength());
+  double nearest = std::numeric_limits<double>::infinity();
+  PiecewisePolynomial onward;
+  for (const IkAnswer& answer : solve(u, here).solutions) {
+    VectorX inside = joined(answer.position, u);
+    system_.correctJoints(inside);
+    TracedCurve back = tracer_.trace(inside, -1.0, from);
+    if (back.end != TraceEnd::kGoal || back.curve.segments() == 0) continue;
+    for (int i = 0; i < n && !system_.redundant(); ++i) {
+      if (!chain_.joint(i).isRevolute()) continue;
+      const double shift = kTwoPi * std::round((here[i] - back.last[i]) / kTwoPi);
+      back.last[i] += shift;
+      inside[i] += shift;
+      for (std::size_t k = 0; k < back.curve.segments(); ++k) back.curve.at(k, 0, i) += shift;
+    }
+    const VectorX start = back.last.head(n);
+    const double way = (start - here).norm();
+    if (way < kSameSolution || way >= nearest || !keepsPose(chain_, solver_.task(), here, start, tolerance)) continue;
+    nearest = way;
+    onward = reversed(back.curve);
+    y = inside;
+  }
+  if (!std::isfinite(nearest)) return false;
+  VectorX start(n);
+  for (int i = 0; i < n; ++i) start[i] = onward.valueAt(0.0, i);
+  const PiecewisePolynomial turn = turnInPlace(here, start, from);
+  branch.turns.push_back({branch.curve.duration(), branch.curve.duration() + turn.duration()});
+  branch.curve = concatenate(concatenate(branch.curve, turn), onward);
+  return true;
 }
 
 void Follower::explain(FollowedBranch& branch, const TracedCurve& last, double goal) {

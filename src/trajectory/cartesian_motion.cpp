@@ -50,8 +50,8 @@ void noteSlowing(const ToolPath& path, const FollowedPath& followed, const Retim
 
 }  // namespace
 
-FollowedPath::FollowedPath(PiecewisePolynomial curve, double lead, double tail)
-    : curve_(std::move(curve)), joints_(curve_.joints - 1), lead_(lead), tail_(tail) {}
+FollowedPath::FollowedPath(PiecewisePolynomial curve, double lead, double tail, std::vector<Range> turns)
+    : curve_(std::move(curve)), joints_(curve_.joints - 1), lead_(lead), tail_(tail), turns_(std::move(turns)) {}
 
 VectorX FollowedPath::at(double arc) const {
   VectorX y(joints_ + 1);
@@ -190,6 +190,12 @@ TimedPath timeOptimally(const ProfileContext& context, const ToolPath& path, con
   if (followed.lead() > 0.0) {
     result.notes.push_back("waypoints[0] is singular: the joints turn in place there first, for " +
                            number(secondsAt(followed.lead())) + " s, as the tip could not leave along the path else");
+  }
+  for (const Range& turn : followed.turns()) {
+    result.notes.push_back("at " + placeOf(path, followed.at(turn.lower).tail<1>()[0]) +
+                           " the path stops in a singularity and does not go on from the joint values that it arrives "
+                           "in: the joints turn in place there, for " +
+                           number(secondsAt(turn.upper) - secondsAt(turn.lower)) + " s");
   }
   if (followed.tail() > 0.0) {
     result.notes.push_back("the goal is singular: the joints turn in place there last, for " +

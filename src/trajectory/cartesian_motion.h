@@ -14,7 +14,8 @@ namespace screwline {
 class FollowedPath {
  public:
   /// @param lead, tail arc lengths in which the joints turn in place, at either end.
-  explicit FollowedPath(PiecewisePolynomial curve, double lead = 0.0, double tail = 0.0);
+  /// @param turns the same between, where the path stops.
+  explicit FollowedPath(PiecewisePolynomial curve, double lead = 0.0, double tail = 0.0, std::vector<Range> turns = {});
 
   JointPath byArc() const;
   /// By u, through points so dense that it is off by at most the tolerance [rad, m].
@@ -24,6 +25,7 @@ class FollowedPath {
   double length() const { return curve_.duration(); }
   double lead() const { return lead_; }
   double tail() const { return tail_; }
+  const std::vector<Range>& turns() const { return turns_; }
   VectorX at(double arc) const;      ///< (q, u)
   VectorX rateAt(double arc) const;  ///< Its derivative.
   double arcAt(double u) const;      ///< Of monotone u, by bisection.
@@ -42,6 +44,7 @@ class FollowedPath {
   int joints_;
   double lead_;
   double tail_;
+  std::vector<Range> turns_;
 };
 
 /// The motion along a followed path and the instant of every waypoint.

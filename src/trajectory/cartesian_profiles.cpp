@@ -145,25 +145,27 @@ ProfileDraft follow(const ProfileContext& context, const ToolPath& path, const s
 }
 
 /// How corners are passed, and which of them no blend of that size fits.
-void noteBlends(const ToolPath& path, const std::vector<Pose>& poses, double radius, std::vector<std::string>& notes) {
+void noteBlends(const ToolPath& path, const std::vector<Pose>& poses, const ToolPathOptions& options,
+                std::vector<std::string>& notes) {
+  const std::vector<double> reaches = cornerReaches(poses, options);
   double most = 0.0;
-  double shortest = 2.0 * radius;
+  double least = options.blend_radius * (1.0 - 1e-9);
   std::size_t narrow = 0;
-  for (std::size_t k = 1; k < poses.size(); ++k) {
-    const double line = (poses[k].p - poses[k - 1].p).norm();
-    if (k + 1 < poses.size()) most = std::max(most, (path.pose(path.waypoints()[k]).p - poses[k].p).norm());
-    if (poses.size() < 3 || line == 0.0 || line >= shortest) continue;
-    shortest = line;
+  for (std::size_t k = 1; k + 1 < poses.size(); ++k) {
+    most = std::max(most, (path.pose(path.waypoints()[k]).p - poses[k].p).norm());
+    if (reaches[k] == 0.0 || reaches[k] >= least) continue;
+    least = reaches[k];
     narrow = k;
   }
-  std::string text = "corners are blended within blend_radius " + number(radius) + " m, the tip passes them at up to " +
-                     number(most) + " m";
+  std::string text = "corners are blended within blend_radius " + number(options.blend_radius) +
+                     " m, the tip passes them at up to " + number(most) + " m";
   if (path.parts() > 1) {
-    text += "; it stops at " + std::to_string(path.parts() - 1) + " where it only turns before or behind";
+    text += "; it stops at " + std::to_string(path.parts() - 1) +
+            " where it only turns before or behind or goes straight back";
   }
   if (narrow > 0) {
-    text += "; blend_radius is more than half of the line to " + indexed("waypoints", narrow) + " and is reduced to " +
-            number(0.5 * shortest) + " m there";
+    text += "; lines beside are too short for it and shared with the next corners: " + number(least) + " m at " +
+            indexed("waypoints", narrow);
   }
   notes.push_back(text);
 }
@@ -173,11 +175,11 @@ void noteBlends(const ToolPath& path, const std::vector<Pose>& poses, double rad
 ProfileDraft buildCartesianLine(const ProfileContext& context) {
   ToolPathOptions options = optionsOf(context);
   options.screw = context.flag("screw", false);
-  options.blend_radius = context.parameter("blend_radius", 0.0);
+  options.blend_radius = context.blendRadius();
   const std::vector<Pose> poses = posesOf(context);
   const ToolPath path = linesThrough(poses, options);
   ProfileDraft draft = follow(context, path, poses, options.blend_radius == 0.0);
-  if (options.blend_radius > 0.0 && path.length() > 0.0) noteBlends(path, poses, options.blend_radius, draft.notes);
+  if (options.blend_radius > 0.0 && path.length() > 0.0) noteBlends(path, poses, options, draft.notes);
   return draft;
 }
 

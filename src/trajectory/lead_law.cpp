@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace screwline {
 namespace {
@@ -73,6 +74,19 @@ LeadLaw leadLaw(const RetimeResult& timed, double length, double ramp, int cells
   }
   law.u.back() = length;
   return law;
+}
+
+RateBound steadyRate(const JointPath& path, const Limits& limits, const RateBound& asked) {
+  return [&path, &limits, &asked](double from, double to) {
+    const Eigen::Index n = path.joints();
+    VectorX q(n), first(n), second(n), third(n);
+    double rate = asked ? asked(from, to) : std::numeric_limits<double>::infinity();
+    for (const double share : {0.001, 0.5, 0.999}) {  // Beside the breakpoints, where it steps.
+      path.at(from + share * (to - from), q.data(), first.data(), second.data(), third.data());
+      rate = std::min(rate, std::cbrt(1.0 / (third.array().abs() / limits.jerk.array()).maxCoeff()));
+    }
+    return rate;
+  };
 }
 
 }  // namespace screwline

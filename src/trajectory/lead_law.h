@@ -23,6 +23,11 @@ struct LeadLaw {
 /// @param timed of the path, as `retime` gives it. @param ramp [s] > 0. @param cells >= 8.
 LeadLaw leadLaw(const RetimeResult& timed, double length, double ramp, int cells);
 
+/// The rate at which the path's third derivative alone uses the jerk limits, nearly, or what is `asked` for if that is
+/// less: where a corner is narrow, a lead that knows nothing of jerk would pass it so fast that its few cells there had
+/// to be slowed down a hundredfold. Keeps references to all three.
+RateBound steadyRate(const JointPath& path, const Limits& limits, const RateBound& asked);
+
 }  // namespace screwline
 
 #endif  // SCREWLINE_SRC_TRAJECTORY_LEAD_LAW_H

@@ -91,11 +91,7 @@ JointTrajectory trapezoidsThrough(const ProfileContext& context, const std::vect
 
 /// The radius asked for; 0: a stop at each waypoint.
 double blendRadius(const ProfileContext& context) {
-  const double radius = context.parameter("blend_radius", 0.0);
-  if (radius < 0.0) {
-    throw InputError(AnswerCode::kInvalidGoal,
-                     "parameter 'blend_radius' is " + number(radius) + ", it must not be negative");
-  }
+  const double radius = context.blendRadius();
   for (std::size_t k = 1; radius > 0.0 && k + 1 < context.waypoints().size(); ++k) {
     if (context.waypoints()[k].time == 0.0) continue;
     throw InputError(AnswerCode::kInvalidGoal, indexed("waypoints", k) + ".time is " +
@@ -104,28 +100,6 @@ double blendRadius(const ProfileContext& context) {
                                                    "chosen, give none or a duration");
   }
   return radius;
-}
-
-void noteBlends(const BlendedLines& lines, double radius, std::vector<std::string>& notes) {
-  double most = 0.0;
-  std::size_t shortened = 0;
-  double least = radius;
-  std::size_t narrowest = 0;
-  for (std::size_t k = 1; k + 1 < lines.corners.size(); ++k) {
-    const BlendedCorner& corner = lines.corners[k];
-    most = std::max(most, corner.deviation);
-    if (!corner.shortened) continue;
-    ++shortened;
-    if (corner.reach >= least) continue;
-    least = corner.reach;
-    narrowest = k;
-  }
-  notes.push_back("corners are blended within blend_radius " + number(radius) +
-                  " (norm of joint differences); the way passes its waypoints at a distance of up to " + number(most));
-  if (shortened == 0) return;
-  notes.push_back("at " + std::to_string(shortened) +
-                  " waypoints half of the shorter line beside is less than blend_radius and bounds the blend: to " +
-                  number(least) + " at " + indexed("waypoints", narrowest));
 }
 
 void lengthen(BlendedLines& lines, double duration) {
@@ -171,7 +145,7 @@ std::optional<ProfileDraft> blendedTrapezoids(const ProfileContext& context, dou
   }
   if (context.duration > 0.0) lengthen(lines, context.duration);
   ProfileDraft draft{JointTrajectory::piecewise(std::move(lines.motion)), std::move(lines.times), {}};
-  noteBlends(lines, radius, draft.notes);
+  noteCorners(lines.corners, radius, draft.notes);
   return draft;
 }
 

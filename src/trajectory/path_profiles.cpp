@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "hold_jerk.h"
@@ -8,6 +9,7 @@
 #include "screwline/trajectory/path.h"
 #include "screwline/trajectory/profile.h"
 #include "screwline/trajectory/retime.h"
+#include "screwline/trajectory/rounded_path.h"
 #include "screwline/trajectory/segment_times.h"
 #include "screwline/trajectory/tool_speed.h"
 
@@ -128,12 +130,56 @@ double instantOf(const RetimeResult& result, double u, double length, double dur
   return high * duration;
 }
 
-/// The instant of each breakpoint of the path.
-std::vector<double> breakTimes(const JointPath& path, const RetimeResult& result, double duration) {
+/// The way that the profile takes, and u of each waypoint.
+struct Way {
+  JointPath path;
+  std::vector<double> waypoints;
+  std::vector<Corner> corners;  ///< Empty: a spline, which has none.
+};
+
+/// The natural spline, or where a blend_radius is given lines with rounded corners.
+Way wayOf(const ProfileContext& context) {
+  const MatrixX positions = positionsOf(context.waypoints());
+  if (context.parameter("blend_radius")) {
+    RoundedLines lines = roundedLines(positions, context.blendRadius());
+    return {std::move(lines.path), std::move(lines.waypoints), std::move(lines.corners)};
+  }
+  std::vector<double> knots;
+  for (Eigen::Index k = 0; k < positions.cols(); ++k)
+    knots.push_back(static_cast<double>(k) / static_cast<double>(positions.cols() - 1));
+  return {naturalSplinePath(knots, positions), knots, {}};
+}
+
+/// Under jerk limits narrow corners take more cells than smooth splines do.
+int cornerCells(const JointPath& path) {
+  constexpr std::size_t kEach = 400;
+  constexpr std::size_t kMost = 4000;
+  return static_cast<int>(std::min(kMost, kEach * (path.breaks().size() - 1)));
+}
+
+/// The instant of each waypoint.
+std::vector<double> waypointTimes(const Way& way, const RetimeResult& result, double duration) {
   std::vector<double> times;
-  for (double u : path.breaks()) times.push_back(instantOf(result, u, path.length(), duration));
+  for (double u : way.waypoints) times.push_back(instantOf(result, u, way.path.length(), duration));
   times.back() = duration;
   return times;
+}
+
+/// Pieces that are short beside the whole have their instants rounded to more than the limits tolerate: then once more,
+/// within limits that are narrower by that.
+RetimeResult retimeExactly(const JointPath& path, const Limits& limits, const RetimeOptions& options) {
+  constexpr int kMostRounds = 4;
+  Limits held = limits;
+  if (!options.hold_jerk) held.jerk.setConstant(std::numeric_limits<double>::infinity());
+  Limits narrowed = held;
+  for (int round = 1;; ++round) {
+    RetimeResult result = retime(path, narrowed, options);
+    if (result.status != RetimeStatus::kDone || round == kMostRounds) return result;
+    const double excess =
+        tightestUse(JointTrajectory::alongPath(path, result.law, result.duration), held).stretch - 1.0;
+    if (excess <= 0.1 * kLimitTolerance) return result;
+    narrowed = scaledLimits(narrowed, 1.0 - 2.0 * excess, 1.0 - 4.0 * excess, 1.0);
+  }
 }
 
 [[noreturn]] void refuseShort(const ProfileContext& context, const JointTrajectory& motion, double shortest) {
@@ -154,28 +200,31 @@ bool holdsJerk(const ProfileContext& context) {
 }
 
 ProfileDraft buildPathTimeOptimal(const ProfileContext& context) {
-  const auto& waypoints = context.waypoints();
-  if (nothingMoves(waypoints)) return holdStill(context);
-  std::vector<double> knots;
-  for (std::size_t k = 0; k < waypoints.size(); ++k)
-    knots.push_back(static_cast<double>(k) / static_cast<double>(waypoints.size() - 1));
-  const JointPath path = naturalSplinePath(knots, positionsOf(waypoints));
+  if (nothingMoves(context.waypoints())) return holdStill(context);
+  const Way way = wayOf(context);
   RetimeOptions options;
   options.grid_points = gridPointsOf(context);
-  options.rate_bound = toolBound(context, path);
+  options.rate_bound = toolBound(context, way.path);
   options.hold_jerk = holdsJerk(context);
-  const MovingEnds ends(context, path, options);
+  if (options.hold_jerk && options.grid_points == 0 && !way.corners.empty())
+    options.grid_points = cornerCells(way.path);
+  const MovingEnds ends(context, way.path, options);
   options = ends.rates();
   const bool moves = options.start_rate > 0.0 || options.end_rate > 0.0;
   if (moves) options.duration = context.duration;
-  const RetimeResult result = retime(path, context.limits, options);
+  const RetimeResult result = way.corners.empty() ? retime(way.path, context.limits, options)
+                                                  : retimeExactly(way.path, context.limits, options);
   if (result.status == RetimeStatus::kStartTooFast) ends.refuseTooFast(true, options.start_rate, result.start_rate);
   if (result.status == RetimeStatus::kEndTooFast) ends.refuseTooFast(false, options.end_rate, result.end_rate);
   const double shortest = noLessThanShortest(result.duration);
   const double duration = context.duration > 0.0 ? context.duration : shortest;
-  ProfileDraft draft{JointTrajectory::alongPath(path, result.law, duration), breakTimes(path, result, duration), {}};
+  ProfileDraft draft{
+      JointTrajectory::alongPath(way.path, result.law, duration), waypointTimes(way, result, duration), {}};
   if (duration < shortest * (1.0 - kLimitTolerance)) refuseShort(context, draft.trajectory, shortest);
-  return meetingVias(std::move(draft));
+  draft.meets_vias =
+      std::all_of(way.corners.begin(), way.corners.end(), [](const Corner& c) { return c.reach == 0.0; });
+  if (!way.corners.empty()) noteCorners(way.corners, context.blendRadius(), draft.notes);
+  return draft;
 }
 
 }  // namespace screwline

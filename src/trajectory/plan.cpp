@@ -8,6 +8,7 @@
 #include "screwline/trajectory/format.h"
 #include "screwline/trajectory/profile.h"
 #include "screwline/trajectory/verify.h"
+#include "time_ranges.h"
 
 namespace screwline {
 namespace {
@@ -133,6 +134,15 @@ std::optional<PlanResult> planIfFeasible(const PlanRequest& request, const Profi
   }
 }
 
+bool isFeasible(const PlanRequest& request, const Profile& profile) {
+  try {
+    planAsGiven(request, profile);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 PlanRequest slowed(PlanRequest request, double factor) {
   request.duration *= factor;
   for (PathPoint& waypoint : request.waypoints) waypoint.time *= factor;
@@ -179,8 +189,10 @@ PlanResult planOrStretch(const PlanRequest& request, const Profile& profile, boo
   try {
     return planAsGiven(request, profile);
   } catch (const InputError& error) {
-    if (!stretch || error.code() != AnswerCode::kLimitsInfeasible) throw;
-    return planStretched(request, profile, error);
+    if (error.code() != AnswerCode::kLimitsInfeasible) throw;
+    if (stretch) return planStretched(request, profile, error);
+    const auto feasible = [&](const PlanRequest& other) { return isFeasible(other, profile); };
+    throw InputError(error.code(), error.what() + feasibleTimes(request, feasible));
   }
 }
 

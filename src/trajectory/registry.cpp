@@ -82,9 +82,15 @@ std::vector<Profile> jerkLimitedMoves() {
        WaypointDerivatives::kAll,
        buildTimeOptimal},
       {{"path_time_optimal",
-        "the natural cubic spline through the waypoints (uniform knots), passed in the shortest time under the "
+        "the natural cubic spline through the waypoints (uniform knots), or with a blend_radius the lines between them "
+        "with rounded corners, passed in the shortest time under the "
         "velocity and acceleration limits, from rest to rest or with velocities along the path at its ends",
-        {{"grid_points", "intervals in which the path is planned; 0 (default): by the waypoints", false},
+        {{"blend_radius",
+          "[rad or m, norm of joint differences] within which lines between the waypoints are left and met again on a "
+          "C2 "
+          "blend; 0: lines with a stop at each waypoint; not given: the spline",
+          false},
+         {"grid_points", "intervals in which the path is planned; 0 (default): by the waypoints", false},
          {"hold_jerk", "1: the jerk limits hold too (the default where the request gives jerk_limits); 0", false},
          {"tool_speed", "[m/s] that the tip keeps below; not given: no bound", false}}},
        2,
@@ -133,7 +139,8 @@ std::vector<Profile> multipointMoves() {
         "trapezoidal velocity along the lines from waypoint to waypoint, at rest in each, or with corners blended",
         {{"blend_radius",
           "[rad or m, norm of joint differences] within which a corner is left and met again on a parabola, without a "
-          "stop; at most half of a line; 0 (default): a stop at each waypoint",
+          "stop (acceleration steps: path_time_optimal has blends that hold jerk limits); 0 (default): a stop at each "
+          "waypoint",
           false}}},
        2,
        kAny,

@@ -199,6 +199,12 @@ bool ProfileContext::flag(const std::string& name, bool fallback) const {
   return *value == 1.0;
 }
 
+double ProfileContext::blendRadius() const {
+  const double radius = parameter("blend_radius", 0.0);
+  if (radius < 0.0) refuse("parameter 'blend_radius' is " + number(radius) + ", it must not be negative");
+  return radius;
+}
+
 PlanRequest onShortWays(PlanRequest request, std::vector<std::string>& notes) {
   constexpr double kHalfTurn = kPi * (1.0 + 1e-9);  // Of two ways that are equally long the given one.
   std::size_t turned = 0;

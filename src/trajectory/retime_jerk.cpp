@@ -281,7 +281,9 @@ std::optional<Nodes> partNodes(const JointPath& piece, double from, const Limits
       return whole(from + low, from + high);
     };
   }
-  RetimeResult timed = retime(piece, usefulLimits(piece, limits), options);
+  RetimeOptions steady = options;
+  steady.rate_bound = steadyRate(piece, limits, options.rate_bound);
+  RetimeResult timed = retime(piece, usefulLimits(piece, limits), steady);
   if (timed.status != RetimeStatus::kDone) timed = retime(piece, limits, options);
   if (timed.status != RetimeStatus::kDone) {
     refused = timed;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace screwline {
 namespace {
@@ -13,6 +14,7 @@ constexpr double kNarrowest = 1e-3;  ///< Of the longest segment.
 constexpr double kBalanced = 1e-7;   ///< Of the use of limits.
 constexpr long kMostMotions = 600;   ///< Looked at in one search.
 constexpr long kMostWork = 1200000;  ///< Pieces times joints, in units of a cubic.
+constexpr int kTailMotions = 6;      ///< The same for a tail that is scaled to its limits, for each motion.
 constexpr int kFirstRounds = 40;     ///< Of balancing.
 constexpr int kRounds = 12;          ///< The same, from a balanced state.
 constexpr double kDamping = 0.4;
@@ -41,24 +43,16 @@ double nearPeak(const Polynomial& p, int places) {
   return std::max(peak, sign * values[middle] - 0.5 * slope * slope / bend);
 }
 
-std::vector<double> instantsOf(const VectorX& lengths) {
-  std::vector<double> times{0.0};
-  for (Eigen::Index k = 0; k < lengths.size(); ++k) times.push_back(times.back() + lengths[k]);
-  return times;
-}
-
 /// The share of the limits that each segment uses, as the factor of time that brings it to the bound.
 class UseOfSegments {
  public:
   UseOfSegments(const ShapeBuilder& build, const MatrixX& positions, const Limits& limits)
       : build_(build), positions_(positions), limits_(limits) {}
 
-  /// Of the motion with these lengths; the return value is its shortest duration.
-  double measure(const VectorX& lengths, VectorX& use) {
+  void measure(const std::vector<double>& times, VectorX& use) {
     ++motions;
-    const std::vector<double> times = instantsOf(lengths);
     const PiecewisePolynomial motion = build_(positions_, times);
-    use = VectorX::Zero(lengths.size());
+    use = VectorX::Zero(positions_.cols() - 1);
     std::size_t segment = 0;
     for (std::size_t k = 0; k < motion.segments(); ++k) {
       const double stretch = stretchOf(motion, k);
@@ -72,7 +66,6 @@ class UseOfSegments {
         here = std::max(here, stretch);
       }
     }
-    return lengths.sum() * use.maxCoeff();
   }
 
   long motions = 0;
@@ -106,25 +99,30 @@ class UseOfSegments {
   const Limits& limits_;
 };
 
-/// Each length by its own factor, given as a logarithm; of the longest 1.
-VectorX shifted(const VectorX& lengths, const VectorX& logarithms) {
-  const VectorX moved = lengths.array() * logarithms.array().exp();
-  return (moved / moved.maxCoeff()).cwiseMax(kNarrowest);
+std::vector<double> listOf(const VectorX& values) {
+  return {values.data(), values.data() + values.size()};
 }
 
 class SegmentSearch {
  public:
-  SegmentSearch(const ShapeBuilder& build, const MatrixX& positions, const Limits& limits, VectorX lengths)
-      : use_(build, positions, limits), lengths_(std::move(lengths)), targets_(VectorX::Ones(lengths_.size())) {
+  SegmentSearch(const ShapeBuilder& build, const MatrixX& positions, const Limits& limits, const TimeFrame& frame,
+                bool homogeneous, VectorX lengths)
+      : use_(build, positions, limits),
+        frame_(frame),
+        homogeneous_(homogeneous && frame.allOpen()),
+        lengths_(std::move(lengths)),
+        targets_(VectorX::Ones(lengths_.size())) {
     const long work = static_cast<long>(positions.rows()) * lengths_.size();
+    const int degree = build(positions, frame.instants(listOf(lengths_))).degree;
+    const long each = frame.openEnd() && !homogeneous_ ? kTailMotions : 1;
+    most_ = std::min(kMostMotions * each, kMostWork / (work * (2 * degree - 5)));
     VectorX use;
-    best_ = use_.measure(lengths_, use);
-    const int degree = build(positions, instantsOf(lengths_)).degree;
-    most_ = std::min(kMostMotions, kMostWork / (work * (2 * degree - 5)));
+    best_ = cost(lengths_, use);
   }
 
   const VectorX& run() {
     if (!(best_ > 0.0)) return lengths_;  // Nothing is limited.
+    startLessUnequal();
     balance(lengths_, targets_, kFirstRounds);
     for (const double step : {0.3, 0.1, 0.03}) sweep([&](Eigen::Index k) { return leaveRoom(k, step); });
     for (const double step : {0.1, 0.03, 0.01}) sweep([&](Eigen::Index k) { return lengthen(k, step); });
@@ -133,6 +131,68 @@ class SegmentSearch {
 
  private:
   bool exhausted() const { return use_.motions >= most_; }
+
+  /// The duration, or, where that is given, the factor of time that would bring the motion to its limits.
+  double cost(VectorX& lengths, VectorX& use) {
+    if (frame_.openEnd() && !homogeneous_) return durationOf(lengths, use);
+    use_.measure(frame_.instants(listOf(lengths)), use);
+    return (frame_.openEnd() ? lengths.sum() : 1.0) * use.maxCoeff();
+  }
+
+  /// The same with a tail that does not scale with the rest: brought to its limits by a few steps. What passes the
+  /// limits elsewhere counts as a duration beyond all others.
+  double durationOf(VectorX& lengths, VectorX& use) {
+    constexpr double kNear = 1e-6;
+    constexpr double kBeyond = 1e6;
+    auto tail = lengths.tail(lengths.size() - static_cast<Eigen::Index>(frame_.tail()));
+    for (int round = 0;; ++round) {
+      use_.measure(frame_.instants(listOf(lengths)), use);
+      const double most = use.tail(tail.size()).maxCoeff();
+      if (std::abs(most - 1.0) < kNear || round == kTailMotions || !(most > 0.0) || !std::isfinite(most)) break;
+      tail *= most;
+    }
+    const double excess = use.maxCoeff();
+    return (frame_.tailStart() + tail.sum()) * (excess > 1.0 + kNear ? kBeyond * excess : 1.0);
+  }
+
+  /// Splines of high degree swing where a long segment follows a short one: of the weights as they are, their roots,
+  /// and equal ones the best is where the search starts.
+  void startLessUnequal() {
+    const VectorX given = lengths_;
+    for (const double share : {0.25, 0.5, 1.0})
+      balance(shifted(given, -share * given.array().log().matrix()), targets_, 1);
+  }
+
+  /// For each group of segments that share their time.
+  template <typename Visit>
+  void eachGroup(const Visit& visit) const {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(lengths_.size());) {
+      const auto [begin, end] = frame_.groupOf(k);
+      visit(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin));
+      k = end;
+    }
+  }
+
+  /// Each length by its own factor, given as a logarithm; groups keep their sums, and none of it is lost.
+  VectorX shifted(const VectorX& lengths, const VectorX& logarithms) const {
+    VectorX moved = lengths.array() * logarithms.array().exp();
+    eachGroup([&](Eigen::Index begin, Eigen::Index count) {
+      auto group = moved.segment(begin, count);
+      group = group.cwiseMax(kNarrowest * group.maxCoeff());
+      group *= lengths.segment(begin, count).sum() / group.sum();
+    });
+    return moved;
+  }
+
+  /// How far each segment is from its target share of what the tightest of its group uses, as logarithms.
+  VectorX imbalance(const VectorX& use, const VectorX& targets) const {
+    VectorX off = use.array() / targets.array();
+    eachGroup([&](Eigen::Index begin, Eigen::Index count) {
+      const double most = use.segment(begin, count).maxCoeff();
+      if (most > 0.0) off.segment(begin, count) /= most;
+    });
+    return off.cwiseMax(0.3).array().log();
+  }
 
   /// Lengths so that segment k uses targets[k] of the limits, from the given ones. Keeps the best on the way.
   bool balance(VectorX lengths, const VectorX& targets, int rounds) {
@@ -144,21 +204,21 @@ class SegmentSearch {
     VectorX last;
     VectorX off;
     for (int round = 0; round < rounds && !exhausted(); ++round) {
-      const double duration = use_.measure(lengths, use);
-      if (!(duration > 0.0) || !std::isfinite(duration)) break;
-      if (duration < best_ * (1.0 - kGain)) {
-        best_ = duration;
+      const double value = cost(lengths, use);
+      if (!(value > 0.0) || !std::isfinite(value)) break;
+      if (value < best_ * (1.0 - kGain)) {
+        best_ = value;
         lengths_ = lengths;
         gained = true;
       }
-      if (duration > before) damping = std::max(0.03, 0.6 * damping);
-      if (duration > kWorse * before) {
+      if (value > before) damping = std::max(0.03, 0.6 * damping);
+      if (value > kWorse * before) {
         lengths = shifted(last, damping * off);
         continue;
       }
-      before = duration;
+      before = value;
       last = lengths;
-      off = (use.array() / use.maxCoeff() / targets.array()).max(0.3).log();
+      off = imbalance(use, targets);
       if (off.cwiseAbs().maxCoeff() < kBalanced) break;
       lengths = shifted(lengths, damping * off);
     }
@@ -196,6 +256,8 @@ class SegmentSearch {
   }
 
   UseOfSegments use_;
+  const TimeFrame& frame_;
+  bool homogeneous_;
   VectorX lengths_;
   VectorX targets_;
   double best_ = 0.0;
@@ -211,26 +273,50 @@ bool comesBackwards(const MatrixX& positions) {
 
 }  // namespace
 
-std::vector<double> shortestRatios(const ShapeBuilder& build, const MatrixX& positions, const Limits& limits,
-                                   const std::vector<double>& weights) {
-  if (weights.size() < 2) return weights;
-  const bool backwards = comesBackwards(positions);
+TimeFrame::TimeFrame(std::vector<double> given) : given_(std::move(given)) {
+  for (std::size_t k = 1; k < given_.size(); ++k) known_ = given_[k] > 0.0 ? k : known_;
+}
+
+bool TimeFrame::allGiven() const {
+  return std::all_of(given_.begin() + 1, given_.end(), [](double t) { return t > 0.0; });
+}
+
+std::pair<std::size_t, std::size_t> TimeFrame::groupOf(std::size_t segment) const {
+  std::size_t begin = segment;
+  while (begin > 0 && given_[begin] == 0.0) --begin;
+  std::size_t end = segment + 1;
+  while (end + 1 < given_.size() && given_[end] == 0.0) ++end;
+  return {begin, end};
+}
+
+std::vector<double> TimeFrame::instants(const std::vector<double>& weights, double scale) const {
+  std::vector<double> times(given_.size(), 0.0);
+  for (std::size_t begin = 0; begin < known_;) {
+    const std::size_t end = groupOf(begin).second;
+    const auto first = weights.begin() + static_cast<std::ptrdiff_t>(begin);
+    const double total = std::accumulate(first, weights.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+    double passed = 0.0;
+    for (std::size_t k = begin + 1; k <= end; ++k) {
+      passed += weights[k - 1];
+      // Repeated waypoints weigh nothing where they may take no time: those at the end of a run coincide with its end.
+      times[k] =
+          k == end || passed >= total ? given_[end] : given_[begin] + (given_[end] - given_[begin]) * passed / total;
+    }
+    begin = end;
+  }
+  for (std::size_t k = known_ + 1; k < times.size(); ++k) times[k] = times[k - 1] + scale * weights[k - 1];
+  return times;
+}
+
+std::vector<double> searchedWeights(const ShapeBuilder& build, const MatrixX& positions, const Limits& limits,
+                                    const TimeFrame& frame, bool homogeneous, const std::vector<double>& weights) {
+  const bool backwards = frame.allOpen() && homogeneous && comesBackwards(positions);
   VectorX lengths = Eigen::Map<const VectorX>(weights.data(), static_cast<Eigen::Index>(weights.size()));
   if (backwards) lengths.reverseInPlace();
   const MatrixX way = backwards ? MatrixX(positions.rowwise().reverse()) : positions;
-  VectorX found = SegmentSearch(build, way, limits, lengths).run();
+  VectorX found = SegmentSearch(build, way, limits, frame, homogeneous, lengths).run();
   if (backwards) found.reverseInPlace();
-  return {found.data(), found.data() + found.size()};
-}
-
-std::vector<double> balancedOnce(const ShapeBuilder& build, const MatrixX& positions, const Limits& limits,
-                                 const std::vector<double>& lengths) {
-  const VectorX before = Eigen::Map<const VectorX>(lengths.data(), static_cast<Eigen::Index>(lengths.size()));
-  VectorX use;
-  const double duration = UseOfSegments(build, positions, limits).measure(before, use);
-  if (!(duration > 0.0) || !std::isfinite(duration)) return lengths;
-  const VectorX after = shifted(before, kDamping * (use.array() / use.maxCoeff()).max(0.3).log().matrix());
-  return {after.data(), after.data() + after.size()};
+  return listOf(found);
 }
 
 }  // namespace screwline

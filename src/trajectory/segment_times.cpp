@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numeric>
 
 #include "screwline/exception.h"
@@ -14,33 +15,12 @@ namespace {
 
 constexpr std::size_t kMostSearchedWaypoints = 5000;
 
-/// Instants as far as they are known: given ones, and those between two given ones, shared by weight. Returns the index
-/// of the last known one; the others are filled relative to it, per unit of the free scale.
-std::size_t knownTimes(const ProfileContext& context, const std::vector<double>& weights, std::vector<double>& times) {
-  const std::size_t count = context.waypoints().size();
-  times.assign(count, 0.0);
-  std::size_t known = 0;
-  for (std::size_t k = 1; k < count; ++k) {
-    const double given = k + 1 == count ? context.duration : context.waypoints()[k].time;
-    if (given == 0.0) continue;
-    const auto begin = weights.begin();
-    const double total = std::accumulate(begin + static_cast<long>(known), begin + static_cast<long>(k), 0.0);
-    const double start = times[known];
-    double passed = 0.0;
-    for (std::size_t i = known + 1; i <= k; ++i) {
-      passed += weights[i - 1];
-      // Repeated waypoints weigh nothing where they may take no time: those at the end of a run coincide with its end.
-      times[i] = i == k || passed >= total ? given : start + (given - start) * passed / total;
-    }
-    known = k;
-  }
-  return known;
-}
-
-std::vector<double> withTail(std::vector<double> times, std::size_t known, const std::vector<double>& weights,
-                             double scale) {
-  for (std::size_t k = known + 1; k < times.size(); ++k) times[k] = times[k - 1] + scale * weights[k - 1];
-  return times;
+TimeFrame frameOf(const ProfileContext& context) {
+  std::vector<double> given;
+  for (const PathPoint& waypoint : context.waypoints()) given.push_back(waypoint.time);
+  given.front() = 0.0;
+  given.back() = context.duration;
+  return TimeFrame(std::move(given));
 }
 
 std::vector<double> stretched(std::vector<double> times, double factor) {
@@ -83,49 +63,43 @@ void requireFeasible(const ProfileContext& context, const TimedBuilder& build, c
   refuseDuration(context, use, duration * factor);
 }
 
-/// In units of the shortest durations.
-struct Ratios {
-  std::vector<double> weights;
-  double duration = 0.0;
-};
-
-std::vector<double> scaledTo(std::vector<double> lengths, double duration) {
-  const double total = std::accumulate(lengths.begin(), lengths.end(), 0.0);
-  for (double& length : lengths) length *= duration / total;
-  return lengths;
+/// [s] The shortest tail by given weights, exactly: 0 where none is feasible.
+double shortestTail(const ProfileContext& context, const TimedBuilder& build, const TimeFrame& frame,
+                    const std::vector<double>& weights, bool homogeneous) {
+  const double total = std::accumulate(weights.begin() + static_cast<long>(frame.tail()), weights.end(), 0.0);
+  const auto stretch = [&](double tail) {
+    return tightestUse(build(frame.instants(weights, tail / total)), context.limits).stretch;
+  };
+  if (frame.allOpen() && homogeneous) return noLessThanShortest(total * stretch(total));
+  requireSearchable(context);
+  return searchShortest(stretch, total);
 }
 
-std::vector<double> instantsOf(const std::vector<double>& lengths) {
-  std::vector<double> times{0.0};
-  for (const double length : lengths) times.push_back(times.back() + length);
-  return times;
+/// What tells one choice of weights from another: the duration, or, where that is given, how much of the limits is used
+/// (as the factor of time that would bring the motion to them). Infinite where no duration is feasible.
+double outcome(const ProfileContext& context, const TimedBuilder& build, const TimeFrame& frame,
+               const std::vector<double>& weights, bool homogeneous) {
+  if (!frame.openEnd()) return tightestUse(build(frame.instants(weights)), context.limits).stretch;
+  const double tail = shortestTail(context, build, frame, weights, homogeneous);
+  return tail > 0.0 ? frame.tailStart() + tail : std::numeric_limits<double>::infinity();
 }
 
-/// Where velocities are fixed each duration has its own shape: the shortest of a few balanced ones.
-Ratios searchedRatios(const ProfileContext& context, const ShapeBuilder& build, const TimedBuilder& timed,
-                      const MatrixX& positions, std::vector<double> weights, double shortest) {
-  constexpr int kRounds = 8;
-  constexpr Eigen::Index kMostEntries = 400;
-  Ratios best{weights, shortest};
-  if (positions.size() > kMostEntries || shortest == 0.0) return best;
-  double duration = shortest;
-  for (int round = 0; round < kRounds && duration > 0.0; ++round) {
-    weights = balancedOnce(build, positions, context.limits, scaledTo(weights, duration));
-    const auto stretch = [&](double whole) {
-      return tightestUse(timed(instantsOf(scaledTo(weights, whole))), context.limits).stretch;
-    };
-    duration = searchShortest(stretch, best.duration);
-    if (duration > 0.0 && duration < best.duration) best = {weights, duration};
+void noteSearch(const TimeFrame& frame, double before, double after, std::vector<std::string>& notes) {
+  char text[160];
+  if (frame.openEnd() && std::isfinite(before)) {
+    std::snprintf(text, sizeof text,
+                  "times of the segments are searched: %.3g %% shorter than in proportion to each one's own shortest",
+                  100.0 * (1.0 - after / before));
+  } else if (frame.openEnd()) {
+    std::snprintf(text, sizeof text,
+                  "times of the segments are searched: in proportion to each one's own shortest none would do");
+  } else {
+    std::snprintf(
+        text, sizeof text,
+        "times of the segments are searched: limits allow %.4g of the given time; in proportion to each one's "
+        "own shortest %.4g",
+        after, before);
   }
-  return best;
-}
-
-void noteRatios(double before, double after, std::vector<std::string>& notes) {
-  if (!(after < before)) return;
-  char text[128];
-  std::snprintf(text, sizeof text,
-                "times of the segments are searched: %.3g %% shorter than in proportion to each one's own shortest",
-                100.0 * (1.0 - after / before));
   notes.push_back(text);
 }
 
@@ -183,56 +157,38 @@ double searchShortest(const std::function<double(double)>& stretch, double guess
 
 ProfileDraft fitTimes(const ProfileContext& context, const TimedBuilder& build, const std::vector<double>& weights,
                       bool homogeneous) {
-  std::vector<double> times;
-  const std::size_t known = knownTimes(context, weights, times);
-  const double total = std::accumulate(weights.begin() + static_cast<long>(known), weights.end(), 0.0);
-  if (known + 1 == times.size()) {
+  const TimeFrame frame = frameOf(context);
+  if (!frame.openEnd()) {
+    const std::vector<double> times = frame.instants(weights);
     ProfileDraft draft{build(times), times, {}};
     requireFeasible(context, build, times, draft.trajectory, homogeneous);
     return draft;
   }
-  const bool scalable = known == 0 && homogeneous;
-  if (!scalable) requireSearchable(context);
-  const auto stretch = [&](double tail) {
-    return tightestUse(build(withTail(times, known, weights, tail / total)), context.limits).stretch;
-  };
-  const double tail = scalable ? noLessThanShortest(total * stretch(total)) : searchShortest(stretch, total);
-  if (scalable && tail == 0.0) refuseUnbounded(context);
-  if (tail == 0.0) refuseAlways(context, tightestUse(build(withTail(times, known, weights, 1.0)), context.limits));
-  times = withTail(times, known, weights, tail / total);
+  const double tail = shortestTail(context, build, frame, weights, homogeneous);
+  if (tail == 0.0 && frame.allOpen() && homogeneous) refuseUnbounded(context);
+  if (tail == 0.0) refuseAlways(context, tightestUse(build(frame.instants(weights)), context.limits));
+  const double total = std::accumulate(weights.begin() + static_cast<long>(frame.tail()), weights.end(), 0.0);
+  const std::vector<double> times = frame.instants(weights, tail / total);
   return {build(times), times, {}};
 }
 
 ProfileDraft fitShape(const ProfileContext& context, const ShapeBuilder& build, bool homogeneous) {
-  const auto& waypoints = context.waypoints();
-  const MatrixX positions = positionsOf(waypoints);
+  constexpr Eigen::Index kMostEntries = 400;  // Of a tail that does not scale: each look at it is a search of its own.
+  const MatrixX positions = positionsOf(context.waypoints());
   const TimedBuilder timed = [&](const std::vector<double>& times) {
     return JointTrajectory::piecewise(build(positions, times));
   };
-  const std::vector<double> weights = segmentWeights(waypoints, context.limits);
-  const bool free = std::all_of(waypoints.begin(), waypoints.end() - 1, [](const auto& w) { return w.time == 0.0; });
-  if (!free || waypoints.size() < 3) return fitTimes(context, timed, weights, homogeneous);
-  const auto stretch = [&](const std::vector<double>& lengths) {
-    return tightestUse(timed(instantsOf(lengths)), context.limits).stretch;
-  };
-  Ratios before{weights, 0.0};
-  Ratios after;
-  if (homogeneous) {
-    const auto shortest = [&](const std::vector<double>& w) {
-      return stretch(w) * std::accumulate(w.begin(), w.end(), 0.0);
-    };
-    before.duration = shortest(weights);
-    after.weights = shortestRatios(build, positions, context.limits, weights);
-    after.duration = shortest(after.weights);
-  } else {
-    requireSearchable(context);
-    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    before.duration = searchShortest([&](double whole) { return stretch(scaledTo(weights, whole)); }, total);
-    after = searchedRatios(context, build, timed, positions, weights, before.duration);
-  }
-  const bool shorter = after.duration < before.duration;
-  ProfileDraft draft = fitTimes(context, timed, shorter ? after.weights : weights, homogeneous);
-  noteRatios(before.duration, after.duration, draft.notes);
+  const TimeFrame frame = frameOf(context);
+  const std::vector<double> weights = segmentWeights(context.waypoints(), context.limits);
+  const bool scales = !frame.openEnd() || (frame.allOpen() && homogeneous);
+  if (weights.size() < 2 || frame.allGiven() || (!scales && positions.size() > kMostEntries))
+    return fitTimes(context, timed, weights, homogeneous);
+  const std::vector<double> found = searchedWeights(build, positions, context.limits, frame, homogeneous, weights);
+  const double before = outcome(context, timed, frame, weights, homogeneous);
+  const double after = outcome(context, timed, frame, found, homogeneous);
+  if (!(after < before)) return fitTimes(context, timed, weights, homogeneous);
+  ProfileDraft draft = fitTimes(context, timed, found, homogeneous);
+  noteSearch(frame, before, after, draft.notes);
   return draft;
 }
 

@@ -4,14 +4,14 @@
 #include "screwline/exception.h"
 #include "screwline/spatial/rotation.h"
 #include "screwline/spatial/screw.h"
+#include "screwline/trajectory/corner.h"
 #include "screwline/trajectory/format.h"
 #include "screwline/trajectory/tool_path.h"
 
 namespace screwline {
 namespace {
 
-constexpr double kSamePose = 1e-12;       ///< Of u: what differs by less is one pose.
-constexpr double kSameDirection = 1e-12;  ///< Of the derivatives by u: less is no corner.
+constexpr double kSamePose = 1e-12;  ///< Of u: what differs by less is one pose.
 
 [[noreturn]] void refuse(const std::string& message) {
   throw InputError(AnswerCode::kInvalidGoal, message);
@@ -74,26 +74,52 @@ ToolPathPiece straight(const Leg& leg, double from, double to, const ToolPathOpt
   return piece;
 }
 
-/// Leaves the first leg `radius` (of u) before its end and is on the second as far behind its start: the first fades as
-/// the second grows, each with 2 r (x^3 - x^4 / 2), the least polynomial that begins at rest and ends as the leg does.
-ToolPathPiece blend(const Leg& first, const Leg& second, double radius, const ToolPathOptions& options) {
+/// Leaves the first leg `reach` (of u) before its end and is on the second as far behind its start: the first fades as
+/// the second grows.
+ToolPathPiece blend(const Leg& first, const Leg& second, double reach, const ToolPathOptions& options) {
   ToolPathPiece piece;
   piece.kind = options.screw ? ToolPathPiece::Kind::kScrew : ToolPathPiece::Kind::kStraight;
-  piece.start = second.start - radius;
-  piece.length = 2.0 * radius;
+  piece.start = second.start - reach;
+  piece.length = 2.0 * reach;
   piece.anchor = second.from;
   piece.before = first.rate;
   piece.after = second.rate;
-  piece.h.c = {0.0, 0.0, 0.0, 2.0 * radius, -radius};
+  piece.h = cornerRise(reach);
   // -h(1 - x), expanded.
-  piece.g.c = {-radius, 2.0 * radius, 0.0, -2.0 * radius, radius};
+  piece.g.c = {-reach, 2.0 * reach, 0.0, -2.0 * reach, reach};
   return piece;
 }
 
-double blendOf(const Leg& first, const Leg& second, const ToolPathOptions& options) {
-  if (options.blend_radius == 0.0 || first.speed == 0.0 || second.speed == 0.0) return 0.0;
-  return std::min({options.blend_radius / first.speed, options.blend_radius / second.speed, 0.5 * first.length,
-                   0.5 * second.length});
+Bend bendAt(const Leg& first, const Leg& second, const ToolPathOptions& options) {
+  return bendBetween(directionAt(first, true, options.screw), directionAt(second, false, options.screw));
+}
+
+/// The legs between poses that differ, and u of each pose.
+std::vector<Leg> legsThrough(const std::vector<Pose>& poses, const ToolPathOptions& options,
+                             std::vector<double>& waypoints) {
+  std::vector<Leg> legs;
+  waypoints = {0.0};
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    const Pose& last = legs.empty() ? poses.front() : legs.back().to;
+    const Leg leg = legBetween(last, poses[k], waypoints.back(), options);
+    if (leg.length > kSamePose) legs.push_back(leg);
+    waypoints.push_back(leg.length > kSamePose ? leg.start + leg.length : leg.start);
+  }
+  return legs;
+}
+
+/// [u] Of each corner between the legs, and of the ends. A corner in which the tip only turns before or behind has
+/// none.
+std::vector<double> reachesOf(const std::vector<Leg>& legs, const ToolPathOptions& options) {
+  std::vector<double> lengths;
+  std::vector<double> most(legs.size() + 1, 0.0);
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    lengths.push_back(legs[k].length);
+    if (k == 0 || bendAt(legs[k - 1], legs[k], options) != Bend::kCorner) continue;
+    if (legs[k - 1].speed > 0.0 && legs[k].speed > 0.0)
+      most[k] = options.blend_radius / std::max(legs[k - 1].speed, legs[k].speed);
+  }
+  return fairReaches(lengths, std::move(most));
 }
 
 /// Centre, normal and angle of the circle through three points.
@@ -147,31 +173,34 @@ double fractionOf(const ToolPathPiece& piece, const Vector3& via) {
 ToolPath linesThrough(const std::vector<Pose>& poses, const ToolPathOptions& options) {
   if (!(options.blend_radius >= 0.0))
     refuse("parameter 'blend_radius' is " + number(options.blend_radius) + ", it must not be negative");
-  std::vector<Leg> legs;
-  std::vector<double> waypoints{0.0};
-  for (std::size_t k = 1; k < poses.size(); ++k) {
-    const Pose& last = legs.empty() ? poses.front() : legs.back().to;
-    const Leg leg = legBetween(last, poses[k], waypoints.back(), options);
-    if (leg.length > kSamePose) legs.push_back(leg);
-    waypoints.push_back(leg.length > kSamePose ? leg.start + leg.length : leg.start);
-  }
+  std::vector<double> waypoints;
+  const std::vector<Leg> legs = legsThrough(poses, options, waypoints);
+  const std::vector<double> reaches = reachesOf(legs, options);
   std::vector<ToolPathPiece> pieces;
   std::vector<double> stops;
-  double cut = 0.0;  // Of the present leg, by the blend before it.
   for (std::size_t k = 0; k < legs.size(); ++k) {
     const bool last = k + 1 == legs.size();
-    const bool bends =
-        !last && (directionAt(legs[k], true, options.screw) - directionAt(legs[k + 1], false, options.screw))
-                         .cwiseAbs()
-                         .maxCoeff() > kSameDirection;
-    const double radius = bends ? blendOf(legs[k], legs[k + 1], options) : 0.0;
-    if (legs[k].length - radius - cut > kSamePose)
-      pieces.push_back(straight(legs[k], cut, legs[k].length - radius, options));
-    if (radius > 0.0) pieces.push_back(blend(legs[k], legs[k + 1], radius, options));
-    if (bends && radius == 0.0) stops.push_back(legs[k + 1].start);
-    cut = radius;
+    const double reach = reaches[k + 1];
+    if (legs[k].length - reach - reaches[k] > kSamePose)
+      pieces.push_back(straight(legs[k], reaches[k], legs[k].length - reach, options));
+    if (reach > 0.0) pieces.push_back(blend(legs[k], legs[k + 1], reach, options));
+    if (!last && reach == 0.0 && bendAt(legs[k], legs[k + 1], options) != Bend::kNone)
+      stops.push_back(legs[k + 1].start);
   }
   return ToolPath(std::move(pieces), std::move(stops), std::move(waypoints));
+}
+
+std::vector<double> cornerReaches(const std::vector<Pose>& poses, const ToolPathOptions& options) {
+  std::vector<double> waypoints;
+  const std::vector<Leg> legs = legsThrough(poses, options, waypoints);
+  const std::vector<double> reaches = reachesOf(legs, options);
+  std::vector<double> metres(poses.size(), 0.0);
+  for (std::size_t k = 0, leg = 0; k < poses.size(); ++k) {
+    if (leg + 1 < legs.size() && waypoints[k] >= legs[leg + 1].start) ++leg;
+    if (leg > 0 && waypoints[k] == legs[leg].start)
+      metres[k] = reaches[leg] * std::max(legs[leg - 1].speed, legs[leg].speed);
+  }
+  return metres;
 }
 
 ToolPath arcThrough(const std::vector<Pose>& poses, const ArcOptions& arc, const ToolPathOptions& options) {

@@ -113,6 +113,26 @@ class Plan(unittest.TestCase):
             self.assertEqual(missed.max() < 1e-9, profile in MEETS_VIAS, profile)
             self.assertEqual('missed' in answer.message, profile not in MEETS_VIAS, answer.message)
 
+    def test_rounded_corners(self):
+        def lines(radius, **fields):
+            return self.plan(request('path_time_optimal', A, B, C, parameter_names=['blend_radius'], parameter_values=[radius], **fields))
+        rounded, stopped, smooth = lines(0.2), lines(0.0), lines(0.2, jerk_limits=[50.0, 50.0, 50.0])
+        self.assertLess(rounded.duration, stopped.duration)
+        self.assertLess(rounded.duration, smooth.duration)
+        self.assertTrue(math.isinf(max(rounded.metrics.peak_jerk)))
+        self.assertLessEqual(max(smooth.metrics.peak_jerk), 50.0 * (1.0 + 1e-8))
+        self.assertTrue(0.0 < np.linalg.norm(smooth.via_joint_errors) < 0.1)
+        self.assertLess(max(stopped.via_joint_errors), 1e-9)
+        self.assertIn('the lines between them at up to', smooth.message)
+
+    def test_times_given_for_some(self):
+        way = [A, waypoint(B, time=0.9), C, A]
+        answer = self.plan(request('multipoint_cubic', *way))
+        times, q, _, _ = self.arrays(answer)
+        np.testing.assert_allclose([np.interp(0.9, times, q[:, j]) for j in range(3)], B, atol=1e-3)
+        way[1] = waypoint(B, time=0.01)
+        self.refused(ErrorCode.LIMITS_INFEASIBLE, ['waypoints[1].time is 0.01 s', 'are feasible'], request('multipoint_cubic', *way, duration=9.0))
+
     def test_what_via_scalar_misses_at_the_tip(self):
         answer = self.plan(question('via_scalar', duration=2.0))
         _, q, _, _ = self.arrays(answer)

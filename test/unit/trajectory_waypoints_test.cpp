@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "property/trajectory_random.h"
@@ -170,6 +171,123 @@ TEST(SegmentTimes, WithFixedVelocitiesTheyAreSearchedToo) {
   EXPECT_NEAR(point.velocity[0], 0.5, 1e-9);
   EXPECT_LE(tightestUse(result.trajectory, r.limits).stretch, 1.0 + 1e-9);
   EXPECT_NE(allNotes(result).find("times of the segments are searched"), std::string::npos) << allNotes(result);
+}
+
+/// Ten waypoints of which a few have times, `factor` times those of the motion in which none is given.
+PlanRequest partlyTimed(Random& random, const char* profile, double factor, bool end) {
+  std::vector<VectorX> way;
+  for (int k = 0; k < 9; ++k) way.push_back(random.vector(3, -2.0, 2.0));
+  PlanRequest r = request(profile, way, randomLimits(random, 3));
+  const PlanResult open = plan(r);
+  for (const std::size_t k : {3U, 5U}) r.waypoints[k].time = factor * open.waypoint_times[k];
+  if (end) r.duration = factor * open.trajectory.duration();
+  return r;
+}
+
+/// The same with every time given: what the limits allow of it in proportion to the weights, as a factor of time.
+double weightedUse(PlanRequest r) {
+  const std::vector<double> weights = segmentWeights(r.waypoints, r.limits);
+  r.waypoints.back().time = r.duration;
+  for (std::size_t begin = 0, end = 1; end < r.waypoints.size(); ++end) {
+    if (r.waypoints[end].time == 0.0) continue;
+    double total = 0.0;
+    for (std::size_t k = begin; k < end; ++k) total += weights[k];
+    double t = r.waypoints[begin].time;
+    const double span = r.waypoints[end].time - t;
+    for (std::size_t k = begin; k + 1 < end; ++k) r.waypoints[k + 1].time = t += span * weights[k] / total;
+    begin = end;
+  }
+  const Limits limits = r.limits;
+  r.limits = Limits::unlimited(limits.joints());
+  return tightestUse(plan(r).trajectory, limits).stretch;
+}
+
+TEST(GivenTimes, AreKeptExactlyAndTheOthersUseLessOfTheLimitsThanByWeights) {
+  for (const char* profile : {"multipoint_cubic", "multipoint_quintic", "bspline_interpolating"}) {
+    constexpr unsigned kSeed = 94;
+    Random random(kSeed);
+    double gain = 0.0;
+    constexpr int kTrials = 6;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      const std::string what = std::string(profile) + ", seed 94, trial " + std::to_string(trial);
+      const PlanRequest r = partlyTimed(random, profile, 1.4, true);
+      const PlanResult result = plan(r);
+      for (const std::size_t k : {3U, 5U}) EXPECT_EQ(result.waypoint_times[k], r.waypoints[k].time) << what;
+      EXPECT_EQ(result.trajectory.duration(), r.duration) << what;
+      EXPECT_LT(result.via_joint_errors.cwiseAbs().maxCoeff(), 1e-9) << what;
+      const double use = tightestUse(result.trajectory, r.limits).stretch;
+      const double weighted = weightedUse(r);
+      EXPECT_LE(use, weighted * (1.0 + 1e-9)) << what;
+      gain += 1.0 - use / weighted;
+    }
+    RecordProperty(profile, std::to_string(gain / kTrials));
+    EXPECT_GT(gain / kTrials, 0.02) << profile;
+  }
+}
+
+TEST(GivenTimes, AnOpenEndIsAsEarlyAsTheLimitsAllow) {
+  for (const char* profile : {"multipoint_cubic", "bspline_interpolating"}) {
+    Random random(95);
+    for (int trial = 0; trial < 3; ++trial) {
+      const PlanRequest r = partlyTimed(random, profile, 1.2, false);
+      const PlanResult result = plan(r);
+      const std::string what = std::string(profile) + ", seed 95, trial " + std::to_string(trial);
+      for (const std::size_t k : {3U, 5U}) EXPECT_EQ(result.waypoint_times[k], r.waypoints[k].time) << what;
+      EXPECT_LE(tightestUse(result.trajectory, r.limits).stretch, 1.0 + 1e-9) << what;
+      // With the instants that were found, an earlier end passes the limits.
+      PlanRequest earlier = r;
+      for (std::size_t k = 0; k < r.waypoints.size(); ++k) earlier.waypoints[k].time = result.waypoint_times[k];
+      EXPECT_EQ(errorOf(earlier), AnswerCode::kSuccess) << what;
+      double& last = earlier.waypoints.back().time;
+      last -= 1e-3 * (last - result.waypoint_times[7]);
+      EXPECT_EQ(errorOf(earlier), AnswerCode::kLimitsInfeasible) << what;
+    }
+  }
+}
+
+TEST(GivenTimes, TooTightOnesAreRefusedWithARangeThatHolds) {
+  for (const char* profile : {"multipoint_trapezoidal", "multipoint_cubic", "multipoint_quintic", "via_per_joint"}) {
+    const bool via = std::string(profile).rfind("via", 0) == 0;
+    PlanRequest r =
+        request(profile, {vector({0.0}), vector({1.0}), vector({2.0}), vector({2.5})}, limitsOf(1, 1.0, 4.0, 1e3));
+    if (via) r.waypoints.pop_back();
+    r.waypoints[1].time = 0.3;  // The first line takes a second and more.
+    r.duration = 8.0;
+    const std::string message = messageOf(r);
+    const std::string wanted = "waypoints[1].time is 0.3 s, with all else as given ";
+    const std::size_t at = message.find(wanted);
+    ASSERT_NE(at, std::string::npos) << profile << ": " << message;
+    double lower = 0.0, upper = 0.0;
+    ASSERT_EQ(std::sscanf(message.c_str() + at + wanted.size(), "%lf s to %lf s are feasible", &lower, &upper), 2)
+        << message;
+    EXPECT_LT(lower, upper);
+    for (const double inside : {lower, 0.5 * (lower + upper), upper}) {
+      r.waypoints[1].time = inside;
+      EXPECT_EQ(errorOf(r), AnswerCode::kSuccess) << profile << " " << inside << ": " << messageOf(r);
+    }
+    for (const double outside : {lower - 0.01, upper + 0.01}) {
+      r.waypoints[1].time = outside;
+      EXPECT_EQ(errorOf(r), AnswerCode::kLimitsInfeasible) << profile << " " << outside;
+    }
+  }
+}
+
+TEST(GivenTimes, TheLastOneHasNoUpperBoundAndStretchHelpsAll) {
+  PlanRequest r = request("multipoint_cubic", {vector({0.0}), vector({1.0}), vector({2.0}), vector({2.5})},
+                          limitsOf(1, 1.0, 4.0, 40.0));
+  r.waypoints[1].time = 2.0;
+  r.waypoints[3].time = 2.5;
+  const std::string message = messageOf(r);
+  const std::string wanted = "waypoints[3].time is 2.5 s, with all else as given ";
+  const std::size_t at = message.find(wanted);
+  ASSERT_NE(at, std::string::npos) << message;
+  EXPECT_NE(message.find("s and more are feasible"), std::string::npos) << message;
+  PlanRequest mended = r;
+  mended.waypoints[3].time = std::stod(message.substr(at + wanted.size()));
+  EXPECT_EQ(errorOf(mended), AnswerCode::kSuccess) << messageOf(mended);
+  r.parameters = {{"stretch", 1.0}};
+  const PlanResult stretched = plan(r);
+  EXPECT_NEAR(stretched.waypoint_times[1] / stretched.trajectory.duration(), 2.0 / 2.5, 1e-9);
 }
 
 TEST(BsplineEnds, VelocitiesAndAccelerationsAreMetInEveryDegree) {

@@ -30,6 +30,7 @@ struct FollowedBranch {
   VectorX start;              ///< Joint values where the path begins.
   PiecewisePolynomial curve;  ///< (q, u): n + 1 rows over the arc length, as far as it goes.
   double distance = 0.0;      ///< Of start to the seed.
+  std::vector<Range> turns;   ///< [arc] Where the joints turn in place, at a stop in a singular configuration.
 };
 
 struct FollowRequest {
@@ -46,9 +47,11 @@ struct FollowResult {
 };
 
 /// The whole path on every branch of its first pose. Solutions come from `solver`; each is then followed through
-/// singularities that the path meets exactly, and slowly round those beside it. Limits: for chains that are not
-/// redundant a branch is followed without them and then put into the turns that keep them; a redundant chain moves its
-/// joints as little as it can and keeps off their limits. Deterministic; allocates; some 10 us per piece.
+/// singularities that the path meets exactly, and slowly round those beside it. Where the path stops in one and does
+/// not go on from the joint values in which a branch arrives, the joints turn in place to the nearest ones from which
+/// it does. Limits: for chains that are not redundant a branch is followed without them and then put into the turns
+/// that keep them; a redundant chain moves its joints as little as it can and keeps off their limits. Deterministic;
+/// allocates; some 10 us per piece.
 /// @throws InputError as InverseKinematics::solve().
 FollowResult followPath(const InverseKinematics& solver, const ToolPath& path, const FollowRequest& request);
 

@@ -36,6 +36,8 @@ struct ProfileContext {
   double parameter(const std::string& name, double fallback) const { return parameter(name).value_or(fallback); }
   /// A parameter that is 0 or 1. @throws InputError(kInvalidGoal) for another value.
   bool flag(const std::string& name, bool fallback) const;
+  /// The parameter; 0 where it is not given. @throws InputError(kInvalidGoal) for a negative one.
+  double blendRadius() const;
 };
 
 /// What a builder returns: a motion within the limits, and the instant of every waypoint.

@@ -37,8 +37,9 @@ double searchShortest(const std::function<double(double)>& stretch, double guess
 ProfileDraft fitTimes(const ProfileContext& context, const TimedBuilder& build, const std::vector<double>& weights,
                       bool homogeneous);
 
-/// The same, with the ratios of free times searched for the shortest motion: where all times are free, or the duration
-/// alone is given. Never longer than with the weights of segmentWeights(), and a note says by how much it is shorter.
+/// The same, with the open times searched: for the shortest motion, or where the duration is given for the one that
+/// uses the least of the limits. Never longer (or tighter) than with the weights of segmentWeights(), and a note says
+/// by how much it is better. Given instants are kept exactly.
 ProfileDraft fitShape(const ProfileContext& context, const ShapeBuilder& build, bool homogeneous);
 
 /// Rest at the first waypoint for the given duration or none: what a request without any displacement gets.

@@ -77,10 +77,14 @@ struct ToolPathOptions {
 };
 
 /// Lines from pose to pose: the origin at constant speed on the straight, the orientation about one constant axis (or
-/// one screw for both). Blends are C2 in u, take at most half of a line, and pass a corner of two lines at right angles
-/// at 0.27 blend_radius. Repeated poses count once.
+/// one screw for both). Blends (cornerRise) are C2 in u, share lines that are too short for them fairly (fairReaches),
+/// and pass a corner of two lines at right angles at 0.27 blend_radius. The path stops where it goes straight back, or
+/// where the tip only turns before or behind a corner. Repeated poses count once.
 /// @pre at least one pose, rotations orthonormal. @throws InputError(kInvalidGoal) for a blend_radius that is negative.
 ToolPath linesThrough(const std::vector<Pose>& poses, const ToolPathOptions& options);
+
+/// [m] How far before and behind each pose that path leaves its lines: at most the blend_radius, 0 where it does not.
+std::vector<double> cornerReaches(const std::vector<Pose>& poses, const ToolPathOptions& options);
 
 struct ArcOptions {
   bool centre = false;          ///< The second pose is the circle's centre, not a point on it.
