@@ -78,7 +78,7 @@ struct InverseKinematics::Implementation {
   bool addMates(const IkAnswer& solution, const Pose& target, const SolutionBuilder& builder,
                 std::vector<IkAnswer>& mates) const;
   void admit(const IkRequest& request, IkAnswer solution, const SolutionBuilder& builder, IkResult& result) const;
-  void dropRepeated(IkResult& result) const;
+  void dropRepeated(const IkRequest& request, IkResult& result) const;
   void doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
   void conclude(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
@@ -190,12 +190,13 @@ bool InverseKinematics::Implementation::isAlmostSingular(const IkAnswer& solutio
 }
 
 /// Refinement has brought candidates together that were apart, and pieces of one curve may have the same nearest
-/// member.
-void InverseKinematics::Implementation::dropRepeated(IkResult& result) const {
+/// member. Turns are told apart only where they were asked for.
+void InverseKinematics::Implementation::dropRepeated(const IkRequest& request, IkResult& result) const {
   std::vector<IkAnswer> distinct;
   for (IkAnswer& answer : result.solutions) {
-    const auto known = std::find_if(distinct.begin(), distinct.end(), [&answer](const IkAnswer& other) {
-      return (other.position - answer.position).cwiseAbs().maxCoeff() <= kSameSolution;
+    const auto known = std::find_if(distinct.begin(), distinct.end(), [&](const IkAnswer& other) {
+      return request.all_turns ? (other.position - answer.position).cwiseAbs().maxCoeff() <= kSameSolution
+                               : isSameConfiguration(chain, other.position, answer.position);
     });
     if (known == distinct.end()) {
       distinct.push_back(std::move(answer));
@@ -277,7 +278,7 @@ std::string InverseKinematics::Implementation::doubt() const {
 void InverseKinematics::Implementation::conclude(const IkRequest& request, const SolutionBuilder& builder,
                                                  IkResult& result) const {
   std::sort(result.solutions.begin(), result.solutions.end(), isNearer);
-  dropRepeated(result);
+  dropRepeated(request, result);
   const auto limit = static_cast<std::size_t>(request.max_solutions);
   if (limit > 0 && result.solutions.size() > limit) {
     result.left_out = static_cast<int>(result.solutions.size() - limit);

@@ -10,8 +10,8 @@
 namespace screwline {
 namespace {
 
-/// Sine below which axis 3 counts as in line with axis 1.
-constexpr double kInLine = 1e-14;
+/// Sine below which axis 3 counts as in line with axis 1: rounding, which an arm near its own singularities enlarges.
+constexpr double kInLine = 1e-13;
 
 /// Cosine below which neighbours count as at right angles: what rounding leaves of it.
 constexpr double kAcross = 1e-15;
@@ -84,7 +84,7 @@ OrientationProblem::Middle OrientationProblem::middleOf(double cosine, double si
 void OrientationProblem::solveInFrames(const Matrix3& M, double preferred, OrientationSolutions& solutions) const {
   solutions.count = 0;
   const double sine = std::sqrt(M(0, 2) * M(0, 2) + M(1, 2) * M(1, 2));
-  if (across_ && sine > 1e-13) return solveAcross(M, sine, solutions);
+  if (across_ && sine > kInLine) return solveAcross(M, sine, solutions);
   const Middle middle = middleOf(M(2, 2), sine);
   if (!middle.reached) return;
   const bool in_line = sine <= kInLine;
