@@ -7,6 +7,7 @@
 #include "completed_method.h"
 #include "ik_request_check.h"
 #include "mate.h"
+#include "nearly_ideal.h"
 #include "parallel_candidates.h"
 #include "plan_candidates.h"
 #include "screwline/exception.h"
@@ -60,6 +61,7 @@ struct InverseKinematics::Implementation {
       algebraic = AlgebraicSolver::compile(chain);
       redundant = SelfMotionSolver::compile(chain);
     }
+    if (algebraic) nearly_ideal = NearlyIdeal::compile(chain, task);
     method = algebraic   ? algebraic->method()
              : redundant ? redundant->method()
                          : "numerical search (Levenberg-Marquardt from many starts)";
@@ -91,6 +93,7 @@ struct InverseKinematics::Implementation {
   std::optional<ParallelMethod> parallel;
   std::optional<CompletedMethod> completed;
   std::optional<AlgebraicSolver> algebraic;
+  std::optional<NearlyIdeal> nearly_ideal;  ///< Beside `algebraic`.
   std::optional<SelfMotionSolver> redundant;
   std::string method;
   double almost_singular;  ///< Manipulability below which solutions may meet.
@@ -121,6 +124,9 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
   }
   if (algebraic) {
     found = rootsOf(*algebraic, request.target, result.complete);
+    if (nearly_ideal && !nearly_ideal->addMissing(request.target, builder.seed(), request.timeout, found)) {
+      result.complete = false;
+    }
     if (result.complete) return found;  // Else the search may add to them.
   }
   return withSearched(request, builder, std::move(found), result);
