@@ -176,6 +176,8 @@ class IkGate {
   /// To first order: no step along the continuum comes nearer, unless the end of its range is met.
   bool isNearestMember(const IkAnswer& answer, const VectorX& seed) const {
     if (answer.self_motion.rows() != 1) return true;
+    // Where curves cross, the pose does not tell the tangent.
+    if (singularValues(taskJacobian(chain_, answer.position, ik_.task())).minCoeff() < 1e-7) return true;
     for (std::size_t k = 0; k < answer.free_joints.size(); ++k) {
       const double value = answer.position[answer.free_joints[k]];
       const auto i = static_cast<Eigen::Index>(k);

@@ -7,6 +7,7 @@
 #include "completed_method.h"
 #include "ik_request_check.h"
 #include "mate.h"
+#include "nearly_ideal.h"
 #include "parallel_candidates.h"
 #include "plan_candidates.h"
 #include "screwline/exception.h"
@@ -60,6 +61,7 @@ struct InverseKinematics::Implementation {
       algebraic = AlgebraicSolver::compile(chain);
       redundant = SelfMotionSolver::compile(chain);
     }
+    if (algebraic) nearly_ideal = NearlyIdeal::compile(chain, task);
     method = algebraic   ? algebraic->method()
              : redundant ? redundant->method()
                          : "numerical search (Levenberg-Marquardt from many starts)";
@@ -78,7 +80,7 @@ struct InverseKinematics::Implementation {
   bool addMates(const IkAnswer& solution, const Pose& target, const SolutionBuilder& builder,
                 std::vector<IkAnswer>& mates) const;
   void admit(const IkRequest& request, IkAnswer solution, const SolutionBuilder& builder, IkResult& result) const;
-  void dropRepeated(IkResult& result) const;
+  void dropRepeated(const IkRequest& request, IkResult& result) const;
   void doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
   void conclude(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
@@ -91,6 +93,7 @@ struct InverseKinematics::Implementation {
   std::optional<ParallelMethod> parallel;
   std::optional<CompletedMethod> completed;
   std::optional<AlgebraicSolver> algebraic;
+  std::optional<NearlyIdeal> nearly_ideal;  ///< Beside `algebraic`.
   std::optional<SelfMotionSolver> redundant;
   std::string method;
   double almost_singular;  ///< Manipulability below which solutions may meet.
@@ -121,6 +124,9 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
   }
   if (algebraic) {
     found = rootsOf(*algebraic, request.target, result.complete);
+    if (nearly_ideal && !nearly_ideal->addMissing(request.target, builder.seed(), request.timeout, found)) {
+      result.complete = false;
+    }
     if (result.complete) return found;  // Else the search may add to them.
   }
   return withSearched(request, builder, std::move(found), result);
@@ -190,12 +196,13 @@ bool InverseKinematics::Implementation::isAlmostSingular(const IkAnswer& solutio
 }
 
 /// Refinement has brought candidates together that were apart, and pieces of one curve may have the same nearest
-/// member.
-void InverseKinematics::Implementation::dropRepeated(IkResult& result) const {
+/// member. Turns are told apart only where they were asked for.
+void InverseKinematics::Implementation::dropRepeated(const IkRequest& request, IkResult& result) const {
   std::vector<IkAnswer> distinct;
   for (IkAnswer& answer : result.solutions) {
-    const auto known = std::find_if(distinct.begin(), distinct.end(), [&answer](const IkAnswer& other) {
-      return (other.position - answer.position).cwiseAbs().maxCoeff() <= kSameSolution;
+    const auto known = std::find_if(distinct.begin(), distinct.end(), [&](const IkAnswer& other) {
+      return request.all_turns ? (other.position - answer.position).cwiseAbs().maxCoeff() <= kSameSolution
+                               : isSameConfiguration(chain, other.position, answer.position);
     });
     if (known == distinct.end()) {
       distinct.push_back(std::move(answer));
@@ -277,7 +284,7 @@ std::string InverseKinematics::Implementation::doubt() const {
 void InverseKinematics::Implementation::conclude(const IkRequest& request, const SolutionBuilder& builder,
                                                  IkResult& result) const {
   std::sort(result.solutions.begin(), result.solutions.end(), isNearer);
-  dropRepeated(result);
+  dropRepeated(request, result);
   const auto limit = static_cast<std::size_t>(request.max_solutions);
   if (limit > 0 && result.solutions.size() > limit) {
     result.left_out = static_cast<int>(result.solutions.size() - limit);

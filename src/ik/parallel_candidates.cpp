@@ -10,6 +10,9 @@ namespace {
 
 using Signs = std::array<int, 3>;
 
+constexpr int kMostSteps = 30;
+constexpr double kBeside = 1e-2;  // [rad]
+
 /// Gathers candidates, and which branches they stand for: a sign that is 0 stands for both.
 class Gathering {
  public:
@@ -106,6 +109,21 @@ bool addContinua(const ParallelMethod& method, const SerialChain& chain, const P
   return any || sheets;
 }
 
+/// Brings a configuration beside a multiple solution onto it: where Newton's steps are too long, by damped ones.
+bool settle(const SerialChain& chain, const Pose& target, VectorX& q) {
+  const auto isSolved = [](const TaskError& error) {
+    return error.position <= kSolutionTolerance && error.orientation <= kSolutionTolerance;
+  };
+  if (isSolved(polish(chain, Task(), target, q))) return true;
+  DescentOptions options;
+  options.honour_limits = false;
+  options.max_iterations = kMostSteps;
+  const DescentResult descent = descend(chain, Task(), target, q, options);
+  if (!isSolved(descent.error) || largestDifference(chain, descent.q, q) > kBeside) return false;
+  q = descent.q;
+  return true;
+}
+
 }  // namespace
 
 std::optional<ParallelMethod> parallelMethodFor(const SerialChain& chain, const Task& task) {
@@ -126,8 +144,7 @@ ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain&
     if (solution.free != 0) continue;
     VectorX q = jointsOf(solution, 6);
     if ((solutions.clamped >> k & 1U) != 0U) {
-      const TaskError error = polish(chain, Task(), target, q);
-      if (!(error.position <= kSolutionTolerance) || !(error.orientation <= kSolutionTolerance)) {
+      if (!settle(chain, target, q)) {
         refuted = refuted || (solutions.unlikely >> k & 1U) == 0U;
         continue;
       }

@@ -21,9 +21,8 @@ using test::IkGate;
 
 constexpr unsigned kSeed = 20261125;
 
-// Not puma560: 0.02 mm off, elimination loses solutions at a pose whose theta5 is 0.003 (seed 20261125).
-const char* const kArms[] = {"stanford_arm", "kr6_r900", "irb6640",   "m10ia",      "ur5",      "ur10e",
-                             "panda",        "iiwa14",   "gen3_7dof", "jaco2_6dof", "six_r_16", "youbot_arm"};
+const char* const kArms[] = {"puma560", "stanford_arm", "kr6_r900",  "irb6640",    "m10ia",    "ur5",       "ur10e",
+                             "panda",   "iiwa14",       "gen3_7dof", "jaco2_6dof", "six_r_16", "youbot_arm"};
 
 /// The chain with another table: same joints and limits.
 SerialChain withTable(const SerialChain& chain, const ModifiedDh& table) {
@@ -151,6 +150,39 @@ TEST_P(ImperfectArm, HasEveryBranchOfTheNominalOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Arms, ImperfectArm, testing::ValuesIn(kArms));
+
+/// A wrist that is almost aligned: where the nominal arm's is, elimination finds roots crowded together.
+class AlmostAlignedWrist : public testing::TestWithParam<const char*> {};
+
+TEST_P(AlmostAlignedWrist, LosesNothing) {
+  const unsigned poses = test::wished("SCREWLINE_POSES", 8);
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, GetParam());
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<double> exponent(-4.0, -1.0);
+  int asked = 0;
+  int complete = 0;
+  for (double off : {2e-5, 5e-4}) {
+    const SerialChain chain = calibrated(robot.chain, off, off, random);
+    const InverseKinematics ik(chain, robot.task);
+    for (unsigned k = 0; k < poses; ++k) {
+      VectorX q = within(chain, random);
+      q[4] = std::copysign(std::pow(10.0, exponent(random)), q[4]);
+      const IkGate gate(ik, q, true);
+      const IkResult result = ik.solve(gate.request());
+      ++asked;
+      complete += result.complete ? 1 : 0;
+      EXPECT_TRUE(gate.isKnown(q, result, test::placeTolerance(chain, robot.task, q)))
+          << "seed " << kSeed << ", " << off << ", q = " << q.transpose() << "\n  " << result.message;
+      if (k == 0 && result.complete) {
+        EXPECT_EQ(test::missedSolutions(ik, q, 100), 0) << "q = " << q.transpose();
+      }
+    }
+  }
+  std::printf("%-12s almost aligned: %d poses, complete %d\n", GetParam(), asked, complete);
+}
+
+INSTANTIATE_TEST_SUITE_P(Arms, AlmostAlignedWrist,
+                         testing::Values("puma560", "stanford_arm", "kr6_r900", "irb6640", "m10ia"));
 
 /// The checker sees a branch that is not there.
 TEST(ImperfectArmCheck, SeesAMissingBranch) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "screwline/ik/closed_form/roots.h"
 #include "screwline/model/structure.h"
 
 namespace screwline {
 namespace {
 
+constexpr double kNoSlack = 1e-14;     // Of a direction's reach, where two turns meet.
 constexpr double kRounding = 2e-15;    // [rad] of a direction that came through a few rotations.
 constexpr double kMostInLine = 1e-13;  // What errors of the inputs may add to that.
 constexpr double kInLine = 1e-14;      // Sine below which a direction counts as in line with an axis.
@@ -43,19 +43,19 @@ void DirectionProblem::solve(const Vector3& start, const Vector3& goal, double e
   const double whole = by_first ? goal_sine : start_sine;
   const double part = std::abs(by_first ? side_first : side_second);
   const double slack = whole - part;
-  const double uncertain = kDoubleRootTolerance + 4.0 * error / sine_;
+  const double uncertain = kNoSlack + 4.0 * error / sine_;
   if (slack < -uncertain) return;
   const bool free = whole <= kInLine + std::min(4.0 * error, kMostInLine);
-  const bool one = free || slack <= kDoubleRootTolerance;
+  const bool one = free || slack <= kNoSlack;
   const double height = one ? 0.0 : std::sqrt(slack * (whole + part));
   // Near a double root the turns move by the square root of what moves the direction.
-  const double least_height = std::max(height, std::sqrt((kDoubleRootTolerance + error) * (whole + kInLine)));
+  const double least_height = std::max(height, std::sqrt((kNoSlack + error) * (whole + kInLine)));
   for (int sign : {1, -1}) {
     if (one && sign < 0) break;
     DirectionSolution solution;
     solution.sign = one ? 0 : sign;
     solution.first_loose = by_first;
-    solution.clamped = !free && slack < -kDoubleRootTolerance;
+    solution.clamped = !free && slack < -kNoSlack;
     solution.first_free = free && by_first;
     solution.second_free = free && !by_first;
     solution.error = (kRounding + error) / least_height;

@@ -9,8 +9,8 @@
 namespace screwline {
 namespace {
 
-/// Sine below which axis 3 counts as in line with axis 1.
-constexpr double kInLine = 1e-14;
+/// Sine below which axis 3 counts as in line with axis 1: rounding, which an arm near its own singularities enlarges.
+constexpr double kInLine = 1e-13;
 
 /// Cosine below which neighbours count as at right angles: what rounding leaves of it.
 constexpr double kAcross = 1e-15;
@@ -84,7 +84,7 @@ OrientationTurns OrientationProblem::turnsInFrames(const Matrix3& M, double pref
   OrientationTurns turns;
   turns.place = batch.count();
   const double sine = std::sqrt(M(0, 2) * M(0, 2) + M(1, 2) * M(1, 2));
-  if (across_ && sine > 1e-13) {
+  if (across_ && sine > kInLine) {
     addAcross(M, sine, batch);
     turns.count = 2;
     turns.half_turned = true;

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 
-#include "screwline/ik/closed_form/roots.h"
 #include "screwline/model/structure.h"
 
 namespace screwline {
+namespace {
+
+constexpr double kNoSlack = 1e-14;  // Of the length: a triangle this near to a line is one.
+
+}  // namespace
 
 std::optional<PlanarProblem> PlanarProblem::compile(const Turn& first_link, const Turn& second_link, double length) {
   PlanarProblem problem;
@@ -27,7 +31,7 @@ void PlanarProblem::solve(double x, double y, const Turn& heading, double error,
   const double distance = std::sqrt(x * x + y * y);
   const double beyond = most() - distance;
   const double within = distance - least();
-  const double exact = kDoubleRootTolerance * length_;
+  const double exact = kNoSlack * length_;
   const double slack = std::min(beyond, within);
   if (slack < -(exact + error)) return;
   const bool free = distance <= exact && least() <= exact;

@@ -91,22 +91,26 @@ void addTurns(const PositionGeometry& g, const Vector3& carried, const TurnGoal&
 }
 
 /// A double root of axes that meet, with the point next to axis 2: how far, the root tells no better than to the square
-/// root of rounding, the height above it does. Both turns that bring the point as far as that; false where it is as it
-/// should be.
+/// root of rounding, the height above it does. Both displacements that bring the point as far as that; false where it
+/// is as it should be.
 bool addBesideAxis(const PositionGeometry& g, const CarriedPoint& carried, const TurnGoal& goal,
                    const Preferred& preferred, const PositionSolution& partial, PositionSolutions& out) {
-  if (g.kind != PositionKind::kMeetingAxes || carried.slide || partial.sign[0] != 0 || partial.free[2]) return false;
-  const Vector3 u = carried.at(0.0, partial.turn[2]) - g.axes[1].point;
+  if (g.kind != PositionKind::kMeetingAxes || partial.sign[0] != 0 || partial.free[2]) return false;
+  const Vector3 u = carried.at(partial.q[2], partial.turn[2]) - g.axes[1].point;
   const double along = g.axes[1].direction.dot(u);
   const double turned = std::hypot(g.ex.dot(u), g.ey.dot(u));
   const double least = std::abs(goal.height - g.cosine * along) / g.sine;
-  const double arm = carried.e.norm();
-  if (turned >= least || least > kBesideAxis * std::min(goal.radius, arm)) return false;
-  const double turn = std::sqrt((least - turned) * (least + turned)) / arm;
-  for (double side : {turn, -turn}) {
+  const double arm = carried.e.norm();  // 1 of a slide.
+  if (turned >= least || least > kBesideAxis * std::min(goal.radius, carried.slide ? g.length : arm)) return false;
+  const double way = std::sqrt((least - turned) * (least + turned)) / arm;
+  for (double side : {way, -way}) {
     PositionSolution solution = partial;
-    solution.turn[2] = solution.turn[2] * turnBy(side);
-    addTurns(g, carried.at(0.0, solution.turn[2]), goal, preferred, solution, out);
+    if (carried.slide) {
+      solution.q[2] += side;
+    } else {
+      solution.turn[2] = solution.turn[2] * turnBy(side);
+    }
+    addTurns(g, carried.at(solution.q[2], solution.turn[2]), goal, preferred, solution, out);
   }
   return true;
 }

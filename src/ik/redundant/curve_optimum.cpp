@@ -9,6 +9,7 @@ namespace screwline {
 namespace {
 
 constexpr double kBand = 1e-10;  // [rad, m] beyond a limit that rounding may bring.
+constexpr double kLevel = 1e-7;  // Slope of the distance at its least value, of 1 + the distance.
 constexpr int kMostHalvings = 10;
 constexpr int kBestCount = 6;  // Of the places where a maximum may be, so many are refined.
 
@@ -73,6 +74,11 @@ class NearestSearch {
 
   const SelfMotionNode& best() const { return best_; }
 
+  /// Whether that node is the nearest yet though its tangent, taken in a way of 1 or -1, leads to nearer ones.
+  bool leadsOn(const SelfMotionNode& node, double way) const {
+    return node.q == best_.q && way * off(node).dot(node.tangent) < -kLevel * (1.0 + least_);
+  }
+
   void consider(const SelfMotionNode& node) {
     const double distance = off(node).norm();
     if (distance >= least_) return;
@@ -127,6 +133,14 @@ SelfMotionNode nearestNode(PoseCurve& pose, const SelfMotionCurve& curve, const 
   NearestSearch search(pose, seed, ignore_limits, nodeAt(curve, interval.first));
   for (int i = interval.first; i <= interval.last; ++i) search.consider(nodeAt(curve, i));
   for (int i = interval.first; i < interval.last; ++i) search.refine(nodeAt(curve, i), nodeAt(curve, i + 1), 0);
+  // Beside a crossing tangents are rounding's: what slopes do not show, distances do.
+  const auto nearness = [&](const Vector7& q) {
+    return -(turnedTo(pose.chain(), q, seed, ignore_limits) - seed).norm();
+  };
+  for (int i = interval.first; i < interval.last; ++i) {
+    if (search.leadsOn(nodeAt(curve, i), 1.0) || search.leadsOn(nodeAt(curve, i + 1), -1.0))
+      search.consider(refine(pose, nodeAt(curve, i), nodeAt(curve, i + 1), nearness));
+  }
   return search.best();
 }
 

@@ -58,6 +58,9 @@ class Walk {
           h_ = std::max(0.5 * h_, kShortestStep);
           continue;
         }
+        // Beside a crossing the null vector is rounding's: the curve goes straight on.
+        next.tangent = way_ * at_.tangent;
+        along = 1.0;
       }
       return take(next, along);
     }

@@ -28,9 +28,10 @@ struct RealRoots {
   const RealRoot* end() const { return roots.data() + count; }
 };
 
-/// Radicands within this share of their terms count as zero: two roots that rounding cannot tell apart are one. At
-/// 1e-14 they are 1e-7 rad apart, below the 1e-6 at which solutions are one anyway.
-constexpr double kDoubleRootTolerance = 1e-14;
+/// Radicands within this share of their terms are what rounding leaves of zero: their two roots are one. No larger than
+/// that: 1e-14 swallows roots that are 1e-7 apart, and a stage behind (a wrist near alignment, an axis next to the
+/// point) may part them by far more than the 1e-6 at which solutions are one.
+constexpr double kDoubleRootTolerance = 1e-15;
 
 /// Radicands this far below zero (of their terms) may be what rounding, or a stage before, has left of a double root:
 /// it is proposed, and forward kinematics decides.
