@@ -62,7 +62,9 @@ class LossCheck {
 
   /// As lossDeviation().
   double deviationOf(const std::vector<LostDirection>& directions, int lost) const {
-    double worst = static_cast<int>(directions.size()) == lost ? 0.0 : std::numeric_limits<double>::infinity();
+    if (directions.empty() || static_cast<int>(directions.size()) != lost)
+      return std::numeric_limits<double>::infinity();
+    double worst = 0.0;
     int compared = 0;
     for (const VectorX& q : given_.points) {
       for (const bool in_base : {false, true}) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMixed = 20;        ///< Characters that a direction of both f and n may be shorter and lose.
 constexpr std::size_t kMostPlaces = 16;   ///< Where a direction is worked out.
-constexpr std::size_t kMostReduced = 6;   ///< Directions that are brought to their shortest form.
+constexpr std::size_t kMostReduced = 3;   ///< Directions that are brought to their shortest form.
 constexpr std::size_t kLargestRows = 60;  ///< Terms of columns whose minors are worked out.
 constexpr std::size_t kMostChoices = 4;   ///< Of columns, at each of them.
 constexpr int kMostRows = 4;              ///< Of directions where there are several.
@@ -88,13 +88,16 @@ std::vector<LostDirection> LossFinder::find(const HeldConditions& held, double& 
       found = {*at_rest};
       deviation = lossDeviation({exact_, chain_, task_, held.points}, found, lost);
       if (deviation <= kLossAgreement) return found;
+      deviation = 0.0;
     }
     if (!sample(columns, tip, lost)) return {};
   }
   found = directionsOf(columns, places, lost);
   if (found.empty()) return {};
   deviation = lossDeviation({exact_, chain_, task_, held.points}, found, lost);
-  return deviation <= kLossAgreement ? found : std::vector<LostDirection>();
+  if (deviation <= kLossAgreement) return found;
+  deviation = 0.0;
+  return {};
 }
 
 bool LossFinder::sample(const Columns& columns, int reference, int lost) {

@@ -165,6 +165,8 @@ class SingularitySection {
                                                   : rankAndLost("rank ", meeting.loss)));
     }
     document_.list(items);
+    document_.paragraph(
+        document_.text("These were found among the factors of minors, up to three at a time: there may be others."));
   }
 
   const SectionDraft& draft_;
