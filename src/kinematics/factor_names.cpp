@@ -94,6 +94,12 @@ bool nameWrist(const SerialChain& chain, const Structure& structure, Singularity
       return axes.direction[first].dot(axes.direction[first + 1].cross(axes.direction[first + 2]));
     };
     if (!ratioTo(chain, factor, triple)) continue;
+    if (group.first > 0 && group.first + group.count < chain.size()) {
+      factor.name = "elbow";  // Of an arm with axes on both sides that it moves apart.
+      factor.meaning = "the arm is straight or folded at " + chain.joint(group.first + 1).name +
+                       ": the tip cannot move along the arm";
+      return true;
+    }
     factor.name = "wrist";
     factor.meaning = "axes " + chain.joint(group.first).name + ", " + chain.joint(group.first + 1).name + ", " +
                      chain.joint(group.first + 2).name + " lie in one plane: no rotation about its normal";

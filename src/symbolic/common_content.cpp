@@ -61,7 +61,8 @@ void divideByNumber(std::vector<TrigPolynomial>& entries) {
 
 }  // namespace
 
-void reduceDirection(std::vector<TrigPolynomial>& entries, const TrigPolynomial* zero, const SymbolTable& symbols) {
+void reduceDirection(std::vector<TrigPolynomial>& entries, const std::vector<TrigPolynomial>& zeros,
+                     const SymbolTable& symbols) {
   const auto is_not_zero = [](const TrigPolynomial& entry) { return !entry.isZero(); };
   if (std::count_if(entries.begin(), entries.end(), is_not_zero) == 1) {  // A coordinate axis.
     TrigPolynomial& only = *std::find_if(entries.begin(), entries.end(), is_not_zero);
@@ -73,7 +74,8 @@ void reduceDirection(std::vector<TrigPolynomial>& entries, const TrigPolynomial*
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (entries[i].isZero()) continue;
     FactoredPolynomial part = factored(entries[i], symbols);
-    if (zero != nullptr && countOf(part, *zero) > 0) {
+    if (std::any_of(zeros.begin(), zeros.end(),
+                    [&part](const TrigPolynomial& zero) { return countOf(part, zero) > 0; })) {
       entries[i] = TrigPolynomial(entries[i].ring());
       continue;
     }

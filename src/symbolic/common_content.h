@@ -7,9 +7,10 @@
 
 namespace screwline {
 
-/// A direction counts up to its length: entries that contain the factor `zero` become 0, what the others have in common
-/// (factors, numbers, a square root) is taken out, and the sign is the one with fewer minuses. Null `zero`: none.
-void reduceDirection(std::vector<TrigPolynomial>& entries, const TrigPolynomial* zero, const SymbolTable& symbols);
+/// A direction counts up to its length: entries that contain one of the factors `zeros` become 0, what the others have
+/// in common (factors, numbers, a square root) is taken out, and the sign is the one with fewer minuses.
+void reduceDirection(std::vector<TrigPolynomial>& entries, const std::vector<TrigPolynomial>& zeros,
+                     const SymbolTable& symbols);
 
 /// Whether two reduced directions are the same, or opposite.
 bool areParallel(const std::vector<TrigPolynomial>& a, const std::vector<TrigPolynomial>& b);

@@ -23,14 +23,6 @@ bool isJoint(const SymbolTable& symbols, int id) {
   return symbols[id].kind == SymbolKind::kAngle || symbols[id].kind == SymbolKind::kSlide;
 }
 
-std::vector<int> jointsOf(const ExactChain& exact, const TrigPolynomial& polynomial) {
-  std::vector<int> joints;
-  for (const int id : polynomial.symbols()) {
-    if (isJoint(exact.table.symbols, id)) joints.push_back(id);
-  }
-  return joints;
-}
-
 /// Factors in joint values that all minors share.
 std::vector<TrigPolynomial> sharedFactors(const ExactChain& exact, const ExactDeterminant& determinant) {
   std::vector<TrigPolynomial> shared;
@@ -84,10 +76,8 @@ std::optional<std::vector<Formula>> solvedSlide(const ExactChain& exact, const T
   const TrigPolynomial constant = f.atScalar(joint, TrigPolynomial(exact.ring));
   const TrigPolynomial slope = f.atScalar(joint, TrigPolynomial::number(exact.ring, 1)) - constant;
   if (!(constant + slope * TrigPolynomial::scalar(exact.ring, joint) == f)) return std::nullopt;
-  if (slope.isNumber()) {
-    const Rational number = slope.terms().begin()->second;
-    return std::vector<Formula>{exact.formula(constant.scaled(Rational(-1) / number))};
-  }
+  if (const std::optional<TrigPolynomial> value = exactSlide(f, joint))
+    return std::vector<Formula>{exact.formula(*value)};
   return std::vector<Formula>{exact.formula(-constant) / exact.formula(slope)};
 }
 
@@ -134,12 +124,38 @@ std::vector<SingularityFactor> namedFactors(const ExactChain& exact, const Seria
 
 }  // namespace
 
-std::vector<ExactCondition> exactConditions(const ExactChain& exact, const SerialChain& chain, const Task& task) {
-  const std::vector<TrigPolynomial> shared = sharedFactors(exact, exactDeterminant(exact, task));
-  std::vector<SingularityFactor> named = namedFactors(exact, chain, shared);
+std::vector<int> jointsOf(const ExactChain& exact, const TrigPolynomial& polynomial) {
+  std::vector<int> joints;
+  for (const int id : polynomial.symbols()) {
+    if (isJoint(exact.table.symbols, id)) joints.push_back(id);
+  }
+  return joints;
+}
+
+std::optional<int> exactSteps(const TrigPolynomial& f, int joint, double root) {
+  const int steps = static_cast<int>(std::lround(root / (kPi / kHalfTurn)));
+  if (!f.atAngle(joint, steps).isZero()) return std::nullopt;
+  return steps;
+}
+
+std::optional<TrigPolynomial> exactSlide(const TrigPolynomial& f, int slide) {
+  const TrigPolynomial constant = f.atScalar(slide, TrigPolynomial(f.ring()));
+  const TrigPolynomial slope = f.atScalar(slide, TrigPolynomial::number(f.ring(), 1)) - constant;
+  if (!slope.isNumber() || slope.isZero() || !(constant + slope * TrigPolynomial::scalar(f.ring(), slide) == f))
+    return std::nullopt;
+  return constant.scaled(Rational(-1) / slope.terms().begin()->second);
+}
+
+std::vector<ExactCondition> conditionsFrom(const ExactChain& exact, const SerialChain& chain,
+                                           const std::vector<TrigPolynomial>& polynomials) {
+  std::vector<SingularityFactor> named = namedFactors(exact, chain, polynomials);
   std::vector<ExactCondition> conditions;
-  for (std::size_t i = 0; i < shared.size(); ++i) conditions.push_back({shared[i], std::move(named[i])});
+  for (std::size_t i = 0; i < polynomials.size(); ++i) conditions.push_back({polynomials[i], std::move(named[i])});
   return conditions;
+}
+
+std::vector<ExactCondition> exactConditions(const ExactChain& exact, const SerialChain& chain, const Task& task) {
+  return conditionsFrom(exact, chain, sharedFactors(exact, exactDeterminant(exact, task)));
 }
 
 std::vector<ConditionFormula> conditionsOf(const SymbolicChain& symbolic, const SerialChain& chain, const Task& task) {

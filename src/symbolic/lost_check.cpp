@@ -3,25 +3,24 @@
 #include <algorithm>
 #include <limits>
 
+#include "choices.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/kinematics/jacobian.h"
-#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
 
-constexpr double kIndependent = 1e-6;  ///< Smallest over largest singular value, of columns and of directions.
-constexpr double kVanishing = 1e-6;    ///< A direction shorter than this says nothing there.
+constexpr double kVanishing = 1e-6;  ///< A direction shorter than this says nothing there.
 
 class LossCheck {
  public:
   explicit LossCheck(const LossPoints& given) : given_(given) {}
 
-  /// Task rows of the directions' wrenches at the tip in the base's axes, scaled to length 1 (lengths in the chain's
-  /// own). No rows where one of them vanishes.
-  MatrixX taskRows(const std::vector<LostDirection>& directions, const VectorX& q, bool in_base) const {
+  /// The directions' wrenches at the tip in the base's axes as rows, scaled to length 1 (moments by the chain's own
+  /// length). No rows where one of them vanishes.
+  MatrixX wrenches(const std::vector<LostDirection>& directions, const VectorX& q, bool in_base) const {
     const std::vector<double> values = given_.exact.table.symbols.valuesAt(q);
-    MatrixX rows(static_cast<Eigen::Index>(directions.size()), given_.task.size());
+    MatrixX rows(static_cast<Eigen::Index>(directions.size()), 6);
     for (std::size_t i = 0; i < directions.size(); ++i) {
       const LostDirection& direction = directions[i];
       const bool base = in_base && direction.in_base.rows > 0;
@@ -33,12 +32,25 @@ class LossCheck {
       Vector6 wrench;
       wrench << X.R * f, X.R * n + (poseOf(direction.point, q).p - poseOf(given_.exact.size + 1, q).p).cross(X.R * f);
       wrench.tail<3>() /= given_.chain.characteristicLength();
-      if (wrench.norm() < kVanishing) return MatrixX(0, given_.task.size());
-      wrench /= wrench.norm();
-      wrench.tail<3>() *= given_.chain.characteristicLength();
-      rows.row(static_cast<Eigen::Index>(i)) = given_.task.select(wrench);
+      if (wrench.norm() < kVanishing) return MatrixX(0, 6);
+      rows.row(static_cast<Eigen::Index>(i)) = wrench.normalized();
     }
     return rows;
+  }
+
+  /// What the directions have that the task's rows have not, and the work they do on the joints' twists.
+  double deviationOf(const MatrixX& rows, const VectorX& q) const {
+    const double length = given_.chain.characteristicLength();
+    Matrix6X J;
+    const Matrix3 R_BT = geometricJacobian(given_.chain, q, J).R;
+    double worst = 0.0;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const Vector6 row = rows.row(i).transpose();
+      worst = std::max(worst, (row - given_.task.spread(given_.task.select(row, R_BT), R_BT)).norm());
+    }
+    const double size = std::max(J.norm(), length);
+    J.bottomRows<3>() *= length;
+    return std::max(worst, (rows * J).cwiseAbs().maxCoeff() / size);
   }
 
   Pose poseOf(int frame, const VectorX& q) const {
@@ -50,24 +62,22 @@ class LossCheck {
 
   /// As lossDeviation().
   double deviationOf(const std::vector<LostDirection>& directions, int lost) const {
-    double worst = static_cast<int>(directions.size()) == lost ? 0.0 : std::numeric_limits<double>::infinity();
+    if (directions.empty() || static_cast<int>(directions.size()) != lost)
+      return std::numeric_limits<double>::infinity();
+    double worst = 0.0;
     int compared = 0;
     for (const VectorX& q : given_.points) {
-      Matrix6X J6;
-      geometricJacobian(given_.chain, q, J6);
-      const MatrixX J = taskJacobian(given_.task, J6);
       for (const bool in_base : {false, true}) {
         if (directions.front().at_rest) {
           worst = std::max(worst, deviationAtRest(directions.front(), q, in_base));
           ++compared;
           continue;
         }
-        const MatrixX rows = taskRows(directions, q, in_base);
+        const MatrixX rows = wrenches(directions, q, in_base);
         if (rows.rows() == 0) continue;
         ++compared;
         if (!hasFullRank(rows)) return std::numeric_limits<double>::infinity();
-        worst = std::max(worst,
-                         (rows * J).cwiseAbs().maxCoeff() / std::max(J6.norm(), given_.chain.characteristicLength()));
+        worst = std::max(worst, deviationOf(rows, q));
       }
     }
     return compared > 0 ? worst : std::numeric_limits<double>::infinity();
@@ -96,20 +106,6 @@ class LossCheck {
 };
 
 }  // namespace
-
-bool hasFullRank(const MatrixX& matrix) {
-  const VectorX values = Svd(matrix).singularValues();
-  return values.size() == 0 || values[values.size() - 1] > kIndependent * values[0];
-}
-
-MatrixX valuesOf(const ExactChain& exact, const TrigMatrix& matrix, const VectorX& q) {
-  const std::vector<double> values = exact.table.symbols.valuesAt(q);
-  MatrixX result(matrix.rows(), matrix.columns());
-  for (int i = 0; i < matrix.rows(); ++i) {
-    for (int j = 0; j < matrix.columns(); ++j) result(i, j) = matrix(i, j).evaluate(values);
-  }
-  return result;
-}
 
 double lossDeviation(const LossPoints& given, const std::vector<LostDirection>& directions, int lost) {
   return LossCheck(given).deviationOf(directions, lost);

@@ -22,12 +22,6 @@ struct LossPoints {
 /// all points.
 double lossDeviation(const LossPoints& given, const std::vector<LostDirection>& directions, int lost);
 
-/// The matrix with the symbols' values at q.
-MatrixX valuesOf(const ExactChain& exact, const TrigMatrix& matrix, const VectorX& q);
-
-/// Whether the smallest singular value counts beside the largest.
-bool hasFullRank(const MatrixX& matrix);
-
 }  // namespace screwline
 
 #endif  // SCREWLINE_SRC_SYMBOLIC_LOST_CHECK_H

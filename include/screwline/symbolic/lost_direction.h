@@ -28,21 +28,25 @@ struct LostDirection {
 struct ConditionLoss {
   std::vector<int> ranks;                 ///< Of the task where it holds, otherwise anywhere; empty: nowhere found.
   std::vector<LostDirection> directions;  ///< rows - the largest of `ranks`; empty where no short formulas are found.
-  double deviation = 0.0;  ///< The largest of |l J| over |l| |J| at such configurations, l the task rows of [f; n].
+  double deviation = 0.0;                 ///< The largest of |l J| over |l| |J| at such configurations, l = [f; n].
 };
 
-/// For each of conditionsOf(symbolic, chain, task). A direction comes from minors of the Jacobian, with all that
-/// contains the condition's factor left out; it is moved to the frame where it is shortest and compared with the
-/// numeric Jacobian before it is given. Allocates. @throws DerivationStopped
+/// For each of conditionsOf(symbolic, chain, task). A direction is written at the point and in the axes where it has
+/// fewest entries; there it is made of minors of the Jacobian, with all that contains the condition's factor left out,
+/// and compared with the numeric Jacobian before it is given. Rows about the tool's axes are like any others: what they
+/// lose is a motion that they ask for. Allocates. @throws DerivationStopped
 std::vector<ConditionLoss> lossesOf(const SymbolicChain& symbolic, const SerialChain& chain, const Task& task);
 
 /// Conditions that hold together.
 struct ConditionMeeting {
   std::vector<std::size_t> conditions;  ///< By number in conditionsOf().
-  std::vector<int> ranks;               ///< As in ConditionLoss; empty: no configuration was found where all hold.
+  std::vector<Formula> others;          ///< More left sides that are zero, which are no factors of the determinant.
+  ConditionLoss loss;                   ///< No directions where fewer of the conditions leave the same rank.
 };
 
-/// Each pair of conditions, and all of them where there are more than two. @throws DerivationStopped
+/// Each pair of conditions, and all of them where there are more than two; then what else lowers the rank further where
+/// one or two of them hold, or, where the task is not square, two or three conditions that do it together
+/// (singular_sets.h). @throws DerivationStopped
 std::vector<ConditionMeeting> meetingsOf(const SymbolicChain& symbolic, const SerialChain& chain, const Task& task);
 
 }  // namespace screwline
