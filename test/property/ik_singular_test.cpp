@@ -34,7 +34,7 @@ class SingularLaws : public testing::TestWithParam<const char*> {
 
 /// Poses of each kind and offset: more of the arms that lost solutions when there were few.
 unsigned usualPoses(const std::string& robot) {
-  return robot == "rrr_orthogonal" || robot == "puma560" ? 20 : 2;
+  return robot == "rrr_orthogonal" || robot == "puma560" ? 10 : 2;
 }
 
 TEST_P(SingularLaws, EveryPoseIsAnsweredAndNoBranchLost) {
