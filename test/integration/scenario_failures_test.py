@@ -67,9 +67,11 @@ class ScenarioFailures(unittest.TestCase):
 
     def test_interrupted(self):
         with subprocess.Popen(self.command(['{wait: 60}']), stdout=subprocess.PIPE, text=True) as child:
-            time.sleep(10)
+            for line in child.stdout:
+                if '1. ' in line:  # The first step has begun.
+                    break
             child.send_signal(signal.SIGINT)
-            output = child.communicate(timeout=60)[0]
+            output = child.communicate(timeout=SECONDS)[0]
         self.assertEqual(child.returncode, 2)
         self.assertIn('interrupted', output)
 
