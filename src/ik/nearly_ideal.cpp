@@ -63,17 +63,17 @@ bool NearlyIdeal::confirms(const Pose& target, const VectorX& seed, const std::v
   options.max_iterations = kMostIterations;
   std::vector<bool> taken(found.size(), false);
   for (const IdealSolution& ideal : exact_(target, seed)) {
+    Matrix6X J;
+    geometricJacobian(chain_, ideal.q, J);
+    if (!ideal.free.empty() || conditioningOf(task_.select(J), 0.0).smallest < near_singular_) return false;
     VectorX q = descend(chain_, task_, target, ideal.q, options).q;
     polish(chain_, task_, target, q);
     const auto known = std::find_if(found.begin(), found.end(), [&](const Candidate& candidate) {
       return isSameConfiguration(chain_, candidate.q, q);
     });
     const auto place = static_cast<std::size_t>(known - found.begin());
-    if (!ideal.free.empty() || known == found.end() || taken[place]) return false;
+    if (known == found.end() || taken[place]) return false;
     taken[place] = true;
-    Matrix6X J;
-    geometricJacobian(chain_, ideal.q, J);
-    if (conditioningOf(task_.select(J), 0.0).smallest < near_singular_) return false;
   }
   return true;
 }

@@ -22,15 +22,6 @@ constexpr double kMultiple = 1e-5;     ///< Rounding spreads a multiple zero by 
 constexpr double kZero = 1e-8;         ///< Share of the largest value that still counts as a zero.
 constexpr double kSnap = 1e-9;         ///< Zeros so near to a multiple of 15 degrees are it.
 
-/// Eigenvalues of the companion matrix of sum c[k] z^k, c.back() != 0.
-Eigen::VectorXcd companionRoots(const std::vector<Complex>& c) {
-  const Eigen::Index degree = static_cast<Eigen::Index>(c.size()) - 1;
-  Eigen::MatrixXcd companion = Eigen::MatrixXcd::Zero(degree, degree);
-  companion.diagonal(-1).setOnes();
-  for (Eigen::Index k = 0; k < degree; ++k) companion(k, degree - 1) = -c[static_cast<std::size_t>(k)] / c.back();
-  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(companion, false).eigenvalues();
-}
-
 /// Replaces values that multiplicity has spread by their mean, which rounding hardly moves.
 void mergeMultiples(std::vector<double>& roots, double width) {
   std::sort(roots.begin(), roots.end());
@@ -74,6 +65,14 @@ std::vector<double> unitCircleRoots(const std::vector<Complex>& coefficients) {
 }
 
 }  // namespace
+
+Eigen::VectorXcd companionRoots(const std::vector<Complex>& c) {
+  const Eigen::Index degree = static_cast<Eigen::Index>(c.size()) - 1;
+  Eigen::MatrixXcd companion = Eigen::MatrixXcd::Zero(degree, degree);
+  companion.diagonal(-1).setOnes();
+  for (Eigen::Index k = 0; k < degree; ++k) companion(k, degree - 1) = -c[static_cast<std::size_t>(k)] / c.back();
+  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(companion, false).eigenvalues();
+}
 
 std::vector<double> circleRoots(const std::function<double(double)>& f) {
   std::vector<double> samples(kCircleSamples);

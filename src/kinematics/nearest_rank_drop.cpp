@@ -49,7 +49,7 @@ class RankDrop {
     Matrix6X J;
     const Matrix3 R_BT = geometricJacobian(volume_.chain(), q, J).R;
     const MatrixX J_task = taskJacobian(volume_.task(), J, R_BT);
-    const VectorX sigma = Svd(J_task).singularValues();
+    const VectorX sigma = singularValues(J_task);
     return rankOf(sigma, jacobianNoise(J)) < sigma.size();
   }
 

@@ -5,7 +5,6 @@
 
 #include "nearest_zero.h"
 #include "screwline/kinematics/singularity.h"
-#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 bool isSingular(const TaskDeterminant& determinant, const VectorX& q) {
   Matrix6X J;
   const Matrix3 R_BT = geometricJacobian(determinant.chain(), q, J).R;
-  const VectorX sigma = Svd(taskJacobian(determinant.task(), J, R_BT)).singularValues();
+  const VectorX sigma = singularValues(taskJacobian(determinant.task(), J, R_BT));
   return rankOf(sigma, jacobianNoise(J)) < sigma.size();
 }
 

@@ -5,7 +5,7 @@
 
 #include "sampling.h"
 #include "screwline/kinematics/jacobian.h"
-#include "screwline/spatial/svd.h"
+#include "screwline/kinematics/singularity.h"
 
 namespace screwline {
 namespace {
@@ -49,7 +49,7 @@ std::vector<std::vector<int>> candidates(int size) {
 }
 
 bool isRegular(const MatrixX& J_task) {
-  const VectorX sigma = Svd(J_task).singularValues();
+  const VectorX sigma = singularValues(J_task);
   return sigma.size() == J_task.rows() && sigma[sigma.size() - 1] > kRegular * sigma[0];
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "screwline/kinematics/singularity.h"
 #include "screwline/spatial/svd.h"
 
 namespace screwline {
@@ -48,7 +49,7 @@ MatrixX valuesOf(const ExactChain& exact, const TrigMatrix& matrix, const Vector
 }
 
 bool hasFullRank(const MatrixX& matrix) {
-  const VectorX values = Svd(matrix).singularValues();
+  const VectorX values = singularValues(matrix);
   return values.size() == 0 || values[values.size() - 1] > kIndependent * values[0];
 }
 

@@ -8,8 +8,8 @@
 #include "inverse_roots.h"
 #include "screwline/kinematics/forward.h"
 #include "screwline/kinematics/jacobian.h"
+#include "screwline/kinematics/singularity.h"
 #include "screwline/spatial/rotation.h"
-#include "screwline/spatial/svd.h"
 #include "screwline/symbolic/inverse_formulas.h"
 
 namespace screwline {
@@ -138,7 +138,7 @@ bool isClear(const SerialChain& chain, const Task& task, int given, const Vector
     J_task.middleCols(given, behind) = J_task.rightCols(behind).eval();
     J_task.conservativeResize(Eigen::NoChange, J_task.cols() - 1);
   }
-  const VectorX values = Svd(J_task).singularValues();
+  const VectorX values = singularValues(J_task);
   return values.minCoeff() > kClear * values.maxCoeff();
 }
 

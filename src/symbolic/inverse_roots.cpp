@@ -4,8 +4,7 @@
 #include <cmath>
 #include <complex>
 
-#include <Eigen/Eigenvalues>
-
+#include "../kinematics/factor_roots.h"
 #include "screwline/spatial/rotation.h"
 
 namespace screwline {
@@ -18,20 +17,14 @@ constexpr double kNearReal = 1e-3;  ///< An eigenvalue's share beside the real l
 constexpr double kZero = 1e-12;     ///< Of the terms' sizes: values below it are zero, two roots meet there.
 constexpr int kMostSteps = 20;
 
-/// Eigenvalues of the companion matrix. Leading coefficients that are rounding do not count.
-std::vector<Complex> rootsOf(std::vector<Complex> c) {
+/// Complex zeros; leading coefficients that are rounding do not count.
+std::vector<Complex> zerosOf(std::vector<Complex> c) {
   double largest = 0.0;
   for (const Complex& one : c) largest = std::max(largest, std::abs(one));
   while (!c.empty() && std::abs(c.back()) <= kNegligible * largest) c.pop_back();
-  const int degree = static_cast<int>(c.size()) - 1;
-  if (degree < 1) return {};
-  Eigen::MatrixXcd companion = Eigen::MatrixXcd::Zero(degree, degree);
-  for (int i = 0; i < degree; ++i) {
-    if (i > 0) companion(i, i - 1) = 1.0;
-    companion(i, degree - 1) = -c[static_cast<std::size_t>(i)] / c.back();
-  }
-  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(companion, false);
-  return {solver.eigenvalues().data(), solver.eigenvalues().data() + degree};
+  if (c.size() < 2) return {};
+  const Eigen::VectorXcd zeros = companionRoots(c);
+  return {zeros.data(), zeros.data() + zeros.size()};
 }
 
 struct Value {
@@ -74,7 +67,7 @@ std::vector<double> zeroAngles(const std::array<double, 5>& coefficients) {
   const std::vector<Complex> polynomial = {
       {0.5 * c, 0.5 * d}, {0.5 * a, 0.5 * b}, {k, 0.0}, {0.5 * a, -0.5 * b}, {0.5 * c, -0.5 * d}};
   std::vector<double> angles;
-  for (const Complex& z : rootsOf(polynomial)) {
+  for (const Complex& z : zerosOf(polynomial)) {
     double x = std::arg(z);
     if (std::abs(std::abs(z) - 1.0) <= kNearReal && polish(function, x)) angles.push_back(wrapAngle(x));
   }
@@ -93,7 +86,7 @@ std::vector<double> realRoots(const std::array<double, 5>& coefficients) {
     return result;
   };
   std::vector<double> roots;
-  for (const Complex& z : rootsOf({coefficients.begin(), coefficients.end()})) {
+  for (const Complex& z : zerosOf({coefficients.begin(), coefficients.end()})) {
     double x = z.real();
     if (std::abs(z.imag()) <= kNearReal * std::abs(z) && polish(function, x)) roots.push_back(x);
   }

@@ -55,7 +55,7 @@ class MeetingList {
       for (std::size_t j = i + 1; j < single_.size(); ++j) add({i, j}, {});
     }
     if (all.size() > 2) add(all, {});
-    for (const SingularSet& set : singularSets(exact_, chain_, task_)) add(set);
+    for (const SingularSet& set : singularSets(exact_, chain_, task_, single_)) add(set);
     return std::move(meetings_);
   }
 

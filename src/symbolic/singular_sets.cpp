@@ -38,18 +38,18 @@ class SetSearch {
   SetSearch(const ExactChain& exact, const SerialChain& chain, const Task& task)
       : exact_(exact), chain_(chain), task_(task), determinant_(exactDeterminant(exact, task)) {}
 
-  std::vector<SingularSet> run() {
+  std::vector<SingularSet> run(const std::vector<ExactCondition>& single) {
     const SingularSet anywhere = setOf({});
     full_ = anywhere.rank;
-    const std::vector<ExactCondition> single = exactConditions(exact_, chain_, task_);
-    for (std::size_t i = 0; i < single.size(); ++i) visit({single[i]}, false);
+    std::vector<SingularSet> sets;
+    for (const ExactCondition& one : single) sets.push_back(setOf({one}));
     for (std::size_t i = 0; i < single.size(); ++i) {
-      for (std::size_t j = i + 1; j < single.size(); ++j) visit({single[i], single[j]}, false);
+      for (std::size_t j = i + 1; j < single.size(); ++j) sets.push_back(setOf({single[i], single[j]}));
     }
-    for (std::size_t i = 0; i < single.size(); ++i) explore(setOf({single[i]}));
-    for (std::size_t i = 0; i < single.size(); ++i) {
-      for (std::size_t j = i + 1; j < single.size(); ++j) explore(setOf({single[i], single[j]}));
+    for (const SingularSet& set : sets) {
+      if (isNew(set.conditions)) take(set);
     }
+    for (const SingularSet& set : sets) explore(set);
     // Of a square task's one minor the conditions are all factors; others may share none.
     if (!determinant_.isSquare()) explore(anywhere);
     std::vector<SingularSet> result;
@@ -126,23 +126,32 @@ class SetSearch {
     return stepsAt(conditions, q);
   }
 
-  void visit(const std::vector<ExactCondition>& conditions, bool deeper) {
+  /// Whether they are to be looked at; they are not again.
+  bool isNew(const std::vector<ExactCondition>& conditions) {
     const bool known = std::any_of(visited_.begin(), visited_.end(), [&](const std::vector<ExactCondition>& other) {
       return other.size() == conditions.size() && containsAll(other, conditions);
     });
-    if (known || static_cast<int>(visited_.size()) >= kMostNodes) return;
+    if (known || static_cast<int>(visited_.size()) >= kMostNodes) return false;
     visited_.push_back(conditions);
-    const std::vector<std::vector<ExactCondition>> simpler =
-        deeper ? simplified(conditions) : std::vector<std::vector<ExactCondition>>();
-    for (const std::vector<ExactCondition>& other : simpler) visit(other, deeper);
-    if (!simpler.empty()) return;
-    SingularSet set = setOf(conditions);
-    if (set.points.empty()) return;
+    return true;
+  }
+
+  /// As found, where it lowers the rank below what is known.
+  void take(const SingularSet& set) {
     const bool lower = std::all_of(found_.begin(), found_.end(), [&set](const SingularSet& other) {
       return set.rank < other.rank || !containsAll(set.conditions, other.conditions);
     });
-    if (lower && set.rank < full_) found_.push_back(set);
-    if (deeper) explore(set);
+    if (lower && !set.points.empty() && set.rank < full_) found_.push_back(set);
+  }
+
+  void visit(const std::vector<ExactCondition>& conditions) {
+    if (!isNew(conditions)) return;
+    const std::vector<std::vector<ExactCondition>> simpler = simplified(conditions);
+    for (const std::vector<ExactCondition>& other : simpler) visit(other);
+    if (!simpler.empty()) return;
+    const SingularSet set = setOf(conditions);
+    take(set);
+    if (!set.points.empty()) explore(set);
   }
 
   void explore(const SingularSet& set) {
@@ -151,7 +160,7 @@ class SetSearch {
     for (const ExactCondition& next : conditionsFrom(exact_, chain_, candidates)) {
       std::vector<ExactCondition> conditions = set.conditions;
       conditions.push_back(next);
-      visit(conditions, true);
+      visit(conditions);
     }
   }
 
@@ -263,8 +272,9 @@ class SetSearch {
 
 }  // namespace
 
-std::vector<SingularSet> singularSets(const ExactChain& exact, const SerialChain& chain, const Task& task) {
-  return SetSearch(exact, chain, task).run();
+std::vector<SingularSet> singularSets(const ExactChain& exact, const SerialChain& chain, const Task& task,
+                                      const std::vector<ExactCondition>& single) {
+  return SetSearch(exact, chain, task).run(single);
 }
 
 }  // namespace screwline

@@ -14,13 +14,14 @@ struct SingularSet {
   int rank = 0;                            ///< The largest at the points.
 };
 
-/// Where the rank of the task falls further than where one of exactConditions() holds, or, where it is not square and
-/// no single condition is enough, where two or three together are. Of a matrix of rank r each minor of r rows is a
-/// product of three: what all of them share, and one factor each for its rows and its columns. So wherever conditions
-/// hold, the factors of one minor (the shortest that is not zero there) are all that can lower the rank at the next
-/// step; whether they do, numbers decide. Conditions whose values are not exact are only partly put in, so there more
-/// may exist than is found. Deterministic. @throws DerivationStopped
-std::vector<SingularSet> singularSets(const ExactChain& exact, const SerialChain& chain, const Task& task);
+/// Where the rank of the task falls further than where one of its exactConditions(), `single`, holds, or, where it is
+/// not square and no single condition is enough, where two or three together are. Of a matrix of rank r each minor of r
+/// rows is a product of three: what all of them share, and one factor each for its rows and its columns. So wherever
+/// conditions hold, the factors of one minor (the shortest that is not zero there) are all that can lower the rank at
+/// the next step; whether they do, numbers decide. Conditions whose values are not exact are only partly put in, so
+/// there more may exist than is found. Deterministic. @throws DerivationStopped
+std::vector<SingularSet> singularSets(const ExactChain& exact, const SerialChain& chain, const Task& task,
+                                      const std::vector<ExactCondition>& single);
 
 }  // namespace screwline
 

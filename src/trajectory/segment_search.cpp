@@ -155,8 +155,8 @@ class SegmentSearch {
     return (frame_.tailStart() + tail.sum()) * (excess > 1.0 + kNear ? kBeyond * excess : 1.0);
   }
 
-  /// Splines of high degree swing where a long segment follows a short one: of the weights as they are, their roots,
-  /// and equal ones the best is where the search starts.
+  /// Splines of high degree swing where a long segment follows a short one: of the weights as they are, less unequal
+  /// ones (their powers), and equal ones the best is where the search starts.
   void startLessUnequal() {
     const VectorX given = lengths_;
     for (const double share : {0.25, 0.5, 1.0})
