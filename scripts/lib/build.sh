@@ -5,7 +5,16 @@
 INSTALL=$BUILD/.install
 
 # What one build folder has compiled, another one need not. The cache is the build folder's own, whatever the user's settings are.
-export CCACHE_DIR=$BUILD/.ccache CCACHE_CONFIGPATH=$BUILD/.ccache/ccache.conf
+export CCACHE_DIR=$BUILD/.ccache CCACHE_CONFIGPATH=$BUILD/.ccache/ccache.conf CCACHE_SLOPPINESS=pch_defines,time_macros
+
+# cached_as LINK TARGET...: options for a build of the same sources with the same options elsewhere: what is read through a LINK is known to the cache
+# as what the main build has compiled in TARGET.
+cached_as() {
+  command -v ccache >/dev/null || return 0
+  local links
+  links=$(printf '%s;' "$@")
+  echo "-DCMAKE_CXX_COMPILER_LAUNCHER=$ROOT/scripts/lib/through_link;$links--;ccache"
+}
 
 # configure DIRECTORY OPTION...: with warnings as errors where the tests are run so anyway; what the demo has compiled, they need not.
 configure() {

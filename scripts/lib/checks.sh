@@ -26,8 +26,9 @@ check_shell_syntax() {
 
 # The core alone builds without catkin, and reads no header of ROS on the way. With the options of the main build: most objects are in the cache.
 check_core_without_ros() {
-  local directory=$BUILD/core_only
-  configure "$directory" -DSCREWLINE_CORE_ONLY=ON -DSCREWLINE_WERROR=ON -DCMAKE_BUILD_TYPE=Release || return 1
+  local directory=$BUILD/core_only cache=()
+  mapfile -t cache < <(cached_as "$directory/src" "$BUILD/src")
+  configure "$directory" "${cache[@]}" -DSCREWLINE_CORE_ONLY=ON -DSCREWLINE_WERROR=ON -DCMAKE_BUILD_TYPE=Release || return 1
   build "$directory" all || return 1
   local read
   read=$(find "$directory" \( -name '*.d' -o -name depend.make \) -exec cat {} + | tr ' ' '\n' |
@@ -73,8 +74,7 @@ check_catkin_make() {
 
 build_workspace() {
   local workspace=$BUILD/.workspace cache=()
-  command -v ccache >/dev/null &&
-    cache=("-DCMAKE_CXX_COMPILER_LAUNCHER=$ROOT/scripts/lib/through_link;$workspace/src/screwline;$ROOT;$workspace/devel/include;$BUILD/devel/include;--;ccache")
+  mapfile -t cache < <(cached_as "$workspace/src/screwline" "$ROOT" "$workspace/devel/include" "$BUILD/devel/include" "$workspace/build/screwline/src" "$BUILD/src")
   rm -rf "$workspace/install"
   mkdir -p "$workspace/src"
   ln -sfn "$ROOT" "$workspace/src/screwline"
