@@ -27,7 +27,7 @@ check_shell_syntax() {
 # The core alone builds without catkin, and reads no header of ROS on the way. With the options of the main build: most objects are in the cache.
 check_core_without_ros() {
   local directory=$BUILD/core_only cache=()
-  mapfile -t cache < <(cached_as "$directory/src" "$BUILD/src")
+  mapfile -t cache < <(cached_as "$directory/src/CMakeFiles" "$BUILD/src/CMakeFiles")
   configure "$directory" "${cache[@]}" -DSCREWLINE_CORE_ONLY=ON -DSCREWLINE_WERROR=ON -DCMAKE_BUILD_TYPE=Release || return 1
   build "$directory" all || return 1
   local read
@@ -74,7 +74,7 @@ check_catkin_make() {
 
 build_workspace() {
   local workspace=$BUILD/.workspace cache=()
-  mapfile -t cache < <(cached_as "$workspace/src/screwline" "$ROOT" "$workspace/devel/include" "$BUILD/devel/include" "$workspace/build/screwline/src" "$BUILD/src")
+  mapfile -t cache < <(cached_as "$workspace/src/screwline" "$ROOT" "$workspace/devel/include" "$BUILD/devel/include" "$workspace/build/screwline/src/CMakeFiles" "$BUILD/src/CMakeFiles")
   rm -rf "$workspace/install"
   mkdir -p "$workspace/src"
   ln -sfn "$ROOT" "$workspace/src/screwline"

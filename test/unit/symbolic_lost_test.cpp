@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -57,10 +58,10 @@ struct Case {
 };
 
 /// Of a shipped robot with its own task; derived once.
-const Case& shipped(const std::string& name) {
+const Case& shipped(std::string_view name) {
   static std::map<std::string, std::unique_ptr<Case>> known;
-  std::unique_ptr<Case>& one = known[name];
-  if (!one) one = std::make_unique<Case>(robot(name));
+  std::unique_ptr<Case>& one = known[std::string(name)];
+  if (!one) one = std::make_unique<Case>(robot(std::string(name)));
   return *one;
 }
 
