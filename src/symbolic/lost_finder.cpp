@@ -14,10 +14,11 @@ constexpr std::size_t kMixed = 20;        ///< Characters that a direction of bo
 constexpr std::size_t kMostPlaces = 16;   ///< Where a direction is worked out.
 constexpr std::size_t kMostReduced = 3;   ///< Directions that are brought to their shortest form.
 constexpr std::size_t kLargestRows = 60;  ///< Terms of columns whose minors are worked out.
-constexpr std::size_t kMostChoices = 4;   ///< Of columns, at each of them.
-constexpr int kMostRows = 4;              ///< Of directions where there are several.
-constexpr double kLost = 1e-7;            ///< Of the largest singular value.
-constexpr double kZero = 1e-7;            ///< Of a direction's length.
+constexpr std::size_t kLargestMinor = 4 * kMostWrenchTerms;  ///< Terms of what a minor is made of.
+constexpr std::size_t kMostChoices = 4;                      ///< Of columns, at each of them.
+constexpr int kMostRows = 4;                                 ///< Of directions where there are several.
+constexpr double kLost = 1e-7;                               ///< Of the largest singular value.
+constexpr double kZero = 1e-7;                               ///< Of a direction's length.
 
 bool isMixed(const std::vector<int>& rows) {
   return !rows.empty() && rows.front() < 3 && rows.back() >= 3;
@@ -243,6 +244,7 @@ std::vector<ExactWrench> LossFinder::formulasAt(const Columns& columns, const Pl
   std::vector<ExactWrench> formulas;
   for (const std::vector<int>& choice : columnChoices(rows, values)) {
     const Entries minors = minorsOf(rows, choice);
+    if (minors.empty()) continue;
     for (std::size_t i = 0; i < place.rows.size(); ++i)
       wrench.entries[static_cast<std::size_t>(place.rows[i])] = minors[i];
     formulas.push_back(wrench);
@@ -280,12 +282,14 @@ std::vector<std::vector<int>> LossFinder::columnChoices(const TrigMatrix& rows,
   return choices;
 }
 
-/// What is across the columns, by their largest minors.
+/// What is across the columns, by their largest minors; empty where these are too long to be read.
 LossFinder::Entries LossFinder::minorsOf(const TrigMatrix& rows, const std::vector<int>& columns) const {
   std::vector<int> every_row;
   for (int i = 0; i < rows.rows(); ++i) every_row.push_back(i);
   // In binary order of the rows kept: the minor without the last row comes first.
-  std::vector<TrigPolynomial> minors = largestMinors(selected(rows, every_row, columns));
+  std::optional<Entries> found = largestMinors(selected(rows, every_row, columns), kLargestMinor);
+  if (!found) return {};
+  Entries minors = std::move(*found);
   std::reverse(minors.begin(), minors.end());
   for (std::size_t i = 1; i < minors.size(); i += 2) minors[i] = -minors[i];
   return minors;

@@ -8,6 +8,7 @@
 #include "choices.h"
 #include "condition_points.h"
 #include "exact_determinant.h"
+#include "where_zero.h"
 
 namespace screwline {
 namespace {
@@ -18,6 +19,7 @@ constexpr int kMostNodes = 60;                 ///< Combinations of conditions t
 constexpr std::size_t kMostGroups = 4;         ///< Combinations of the conditions' values.
 constexpr std::size_t kLargestSelection = 90;  ///< Terms of a matrix whose determinant is worked out.
 constexpr std::size_t kLargestFactored = 80;   ///< Terms of a minor.
+constexpr std::size_t kLargestReduced = 400;   ///< Terms of a minor while conditions are put into it.
 constexpr std::size_t kLongestCondition = 10;  ///< Terms of a condition that still says something.
 constexpr double kHolds = 1e-9;                ///< Of a condition's typical magnitude.
 
@@ -195,7 +197,12 @@ class SetSearch {
       for (int i = 0; i < J.rows(); ++i) {
         for (int j = 0; j < J.columns(); ++j) J(i, j) = at(set.conditions, steps, J(i, j));
       }
-      for (const TrigPolynomial& factor : minorFactors(J, points, set.rank)) {
+      std::vector<TrigPolynomial> inexact;
+      for (const ExactCondition& condition : set.conditions) {
+        const TrigPolynomial rest = at(set.conditions, steps, condition.base);
+        if (!rest.isZero()) inexact.push_back(rest);
+      }
+      for (const TrigPolynomial& factor : minorFactors(J, inexact, points, set.rank)) {
         const bool taken = std::any_of(candidates.begin(), candidates.end(),
                                        [&factor](const TrigPolynomial& other) { return isSame(other, factor); });
         if (!taken && !contains(set.conditions, factor)) candidates.push_back(factor);
@@ -234,8 +241,8 @@ class SetSearch {
     return entry;
   }
 
-  std::vector<TrigPolynomial> minorFactors(const TrigMatrix& given, const std::vector<VectorX>& points,
-                                           int rank) const {
+  std::vector<TrigPolynomial> minorFactors(const TrigMatrix& given, const std::vector<TrigPolynomial>& zeros,
+                                           const std::vector<VectorX>& points, int rank) const {
     std::vector<MatrixX> values;
     for (const VectorX& q : points) values.push_back(valuesOf(exact_, given, q));
     const TrigMatrix J = withoutZeros(given, values);
@@ -249,7 +256,9 @@ class SetSearch {
     }
     if (selections.empty()) return {};
     const auto& [rows, columns] = std::min_element(selections.begin(), selections.end())->second;
-    const TrigPolynomial minor = determinant(selected(J, rows, columns));
+    const auto minors = largestMinors(selected(J, rows, columns), kLargestReduced);
+    if (!minors) return {};
+    const TrigPolynomial minor = whereZero(zeros, minors->front(), kLargestReduced);
     std::vector<TrigPolynomial> factors;
     if (minor.isZero() || minor.terms().size() > kLargestFactored) return factors;
     for (const PolynomialFactor& factor : factored(minor, exact_.table.symbols).factors) {

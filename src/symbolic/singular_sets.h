@@ -18,8 +18,10 @@ struct SingularSet {
 /// not square and no single condition is enough, where two or three together are. Of a matrix of rank r each minor of r
 /// rows is a product of three: what all of them share, and one factor each for its rows and its columns. So wherever
 /// conditions hold, the factors of one minor (the shortest that is not zero there) are all that can lower the rank at
-/// the next step; whether they do, numbers decide. Conditions whose values are not exact are only partly put in, so
-/// there more may exist than is found. Deterministic. @throws DerivationStopped
+/// the next step; whether they do, numbers decide. Conditions are put into the minor first: angles that are multiples
+/// of 15 degrees, others by a length or slide in which the condition is linear (where_zero.h); those without one are
+/// left out, and what is long is not looked at, so more may exist than is found. Deterministic. @throws
+/// DerivationStopped
 std::vector<SingularSet> singularSets(const ExactChain& exact, const SerialChain& chain, const Task& task,
                                       const std::vector<ExactCondition>& single);
 

@@ -1,5 +1,7 @@
 #include "trig_matrix.h"
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -11,8 +13,8 @@ namespace {
 using ColumnSet = std::uint64_t;
 
 /// Determinants of the first rows with every set of as many columns, row after row (Laplace's expansion, each
-/// subdeterminant once).
-std::map<ColumnSet, TrigPolynomial> minorsOfRows(const TrigMatrix& matrix) {
+/// subdeterminant once). None where one has more than `most_terms`.
+std::optional<std::map<ColumnSet, TrigPolynomial>> minorsOfRows(const TrigMatrix& matrix, std::size_t most_terms) {
   std::map<ColumnSet, TrigPolynomial> minors;
   minors.emplace(ColumnSet{0}, TrigPolynomial::number(matrix.ring(), 1));
   for (int row = 0; row < matrix.rows(); ++row) {
@@ -35,6 +37,9 @@ std::map<ColumnSet, TrigPolynomial> minorsOfRows(const TrigMatrix& matrix) {
         }
       }
     }
+    const bool is_long = std::any_of(
+        next.begin(), next.end(), [most_terms](const auto& minor) { return minor.second.terms().size() > most_terms; });
+    if (is_long) return std::nullopt;
     minors = std::move(next);
   }
   return minors;
@@ -140,15 +145,20 @@ TrigPose operator*(const TrigPose& a, const TrigPose& b) {
 }
 
 std::vector<TrigPolynomial> largestMinors(const TrigMatrix& matrix) {
-  if (matrix.rows() > matrix.columns()) return largestMinors(matrix.transposed());
-  const std::map<ColumnSet, TrigPolynomial> found = minorsOfRows(matrix);
+  return *largestMinors(matrix, std::numeric_limits<std::size_t>::max());
+}
+
+std::optional<std::vector<TrigPolynomial>> largestMinors(const TrigMatrix& matrix, std::size_t most_terms) {
+  if (matrix.rows() > matrix.columns()) return largestMinors(matrix.transposed(), most_terms);
+  const std::optional<std::map<ColumnSet, TrigPolynomial>> found = minorsOfRows(matrix, most_terms);
+  if (!found) return std::nullopt;
   std::vector<TrigPolynomial> all;
   for (ColumnSet set = 0; set < (ColumnSet{1} << matrix.columns()); ++set) {
     int count = 0;
     for (ColumnSet rest = set; rest != 0; rest &= rest - 1) ++count;
     if (count != matrix.rows()) continue;
-    const auto minor = found.find(set);
-    all.push_back(minor == found.end() ? TrigPolynomial(matrix.ring()) : minor->second);
+    const auto minor = found->find(set);
+    all.push_back(minor == found->end() ? TrigPolynomial(matrix.ring()) : minor->second);
   }
   return all;
 }

@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_SRC_SYMBOLIC_TRIG_MATRIX_H
 #define SCREWLINE_SRC_SYMBOLIC_TRIG_MATRIX_H
 
+#include <optional>
 #include <vector>
 
 #include "trig_polynomial.h"
@@ -52,6 +53,8 @@ TrigPose operator*(const TrigPose& a, const TrigPose& b);
 /// All determinants of r rows and r columns, r the smaller of the matrix's sizes: entry by entry in the order of the
 /// left-out rows or columns' complement, lexicographic. One where the matrix is square.
 std::vector<TrigPolynomial> largestMinors(const TrigMatrix& matrix);
+/// The same; none as soon as one of them, or of the smaller ones that they are made of, has more than `most_terms`.
+std::optional<std::vector<TrigPolynomial>> largestMinors(const TrigMatrix& matrix, std::size_t most_terms);
 TrigPolynomial determinant(const TrigMatrix& matrix);
 
 }  // namespace screwline

@@ -14,7 +14,7 @@
 
 namespace screwline {
 
-constexpr int kMaxExponents = 96;
+constexpr int kMaxExponents = 128;  ///< Seven joints of any geometry with their inverse formulas take up to 120.
 
 /// Exponents of a term, laid out by its TrigRing.
 using TrigKey = std::array<std::int8_t, kMaxExponents>;

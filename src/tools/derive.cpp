@@ -11,6 +11,7 @@
 #include "screwline/exception.h"
 #include "screwline/ik/method_summary.h"
 #include "screwline/kinematics/task_selection.h"
+#include "screwline/model/dh_reader.h"
 #include "screwline/model/urdf_reader.h"
 #include "screwline/symbolic/cpp_header.h"
 #include "screwline/symbolic/derivation.h"
@@ -21,12 +22,13 @@ namespace {
 constexpr int kUsageError = 2;
 
 constexpr const char* kUsage =
-    "usage: derive ROBOT.urdf [--format text|markdown|latex|html|pdf|svg|cpp] [--drawing FILE.svg]\n"
+    "usage: derive ROBOT.urdf|TABLE.yaml [--format text|markdown|latex|html|pdf|svg|cpp] [--drawing FILE.svg]\n"
     "              [--quantities drawing,fk,jacobian,propagation,determinant,singularities,statics,ik]\n"
     "              [--task x,y,z,rx,ry,rz] [--base LINK] [--tip LINK] [--share-lengths] [--keep-angles]\n"
     "Prints forward kinematics, Jacobian, propagation, the task determinant in factors, the singular conditions,\n"
     "statics and inverse kinematics as formulas, checked against numbers. Progress is told on standard error; Ctrl-C\n"
     "ends it.\n"
+    "  TABLE.yaml       a modified Denavit-Hartenberg table as dh_to_urdf reads it; it has no links to choose\n"
     "  --format cpp     a C++17 header of the robot's own forward kinematics, Jacobian and inverse kinematics\n"
     "  --format pdf     needs pdflatex (texlive-latex-base); svg is the drawing of the frames alone\n"
     "  --drawing        where the drawing is written that a Markdown document refers to\n"
@@ -90,6 +92,18 @@ bool parse(const std::vector<std::string>& words, Arguments& arguments) {
   return !arguments.file.empty();
 }
 
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+screwline::SerialChain chainOf(const Arguments& arguments) {
+  const bool table = endsWith(arguments.file, ".yaml") || endsWith(arguments.file, ".yml");
+  if (!table) return screwline::readUrdfFile(arguments.file, arguments.choice);
+  if (!arguments.choice.base_link.empty() || !arguments.choice.tip_link.empty())
+    throw screwline::Exception("--base and --tip: '" + arguments.file + "' is a table, it has no links to choose");
+  return screwline::readDhYamlFile(arguments.file);
+}
+
 std::string headerOf(const screwline::SerialChain& chain, const screwline::Task& task,
                      const screwline::DerivationOptions& options) {
   const screwline::InverseDerivation inverse = screwline::deriveInverse(
@@ -99,7 +113,7 @@ std::string headerOf(const screwline::SerialChain& chain, const screwline::Task&
 }
 
 void derive(Arguments& arguments) {
-  const screwline::SerialChain chain = screwline::readUrdfFile(arguments.file, arguments.choice);
+  const screwline::SerialChain chain = chainOf(arguments);
   const screwline::Task task =
       arguments.task.empty() ? screwline::deriveTask(chain) : screwline::Task::parse(arguments.task);
   arguments.options.progress.report = [](const std::string& stage) { std::cerr << "derive: " << stage << std::endl; };

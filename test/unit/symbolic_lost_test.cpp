@@ -16,6 +16,7 @@
 #include "../../src/symbolic/condition_points.h"
 #include "../../src/symbolic/exact_conditions.h"
 #include "../../src/symbolic/lost_check.h"
+#include "../../src/symbolic/where_zero.h"
 #include "golden.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/kinematics/singularity.h"
@@ -199,9 +200,13 @@ std::string leftSides(const Case& arm, const ConditionMeeting& meeting) {
 /// Where the rank falls further: the sources' own (seeds 003-4 and 004-2), the three of a seven-joint arm with three
 /// centres (shoulder, elbow, wrist), and one that needs three conditions.
 TEST(SymbolicLost, DeeperSingularities) {
-  const std::vector<std::tuple<std::string, std::string, int>> wanted = {
-      {"rrr_orthogonal", "c3, s2", 1}, {"rrp_offset", "c2, d3", 1}, {"iiwa14", "c3, s2", 5},
-      {"iiwa14", "s2, s6", 5},         {"iiwa14", "c5, s6", 5},     {"ur5", "a2 c2 + a3 c23, s234, s5", 4}};
+  const std::vector<std::tuple<std::string, std::string, int>> wanted = {{"rrr_orthogonal", "c3, s2", 1},
+                                                                         {"rrp_offset", "c2, d3", 1},
+                                                                         {"iiwa14", "c3, s2", 5},
+                                                                         {"iiwa14", "s2, s6", 5},
+                                                                         {"iiwa14", "c5, s6", 5},
+                                                                         {"ur5", "a2 c2 + a3 c23, s234, s5", 4},
+                                                                         {"puma560", "a3 s3 + d4 c3, s4, s5", 4}};
   for (const auto& [name, sides, rank] : wanted) {
     const Case& arm = shipped(name);
     const ConditionMeeting* found = nullptr;
@@ -213,6 +218,31 @@ TEST(SymbolicLost, DeeperSingularities) {
     EXPECT_EQ(static_cast<int>(found->loss.directions.size()), arm.task.size() - rank) << name << ": " << sides;
     EXPECT_LE(found->loss.deviation, 1e-11);
   }
+}
+
+/// A condition put into a polynomial: nothing is left of its multiples, and of others what is zero where they are.
+TEST(SymbolicLost, ConditionsArePutIntoPolynomials) {
+  constexpr std::size_t kMostTerms = 1000;
+  const Case& arm = shipped("puma560");
+  const ExactChain& exact = arm.symbolic.exact();
+  const std::vector<ExactCondition> conditions = exactConditions(exact, arm.chain, arm.task);
+  const TrigPolynomial x = exact.pose(0, exact.size + 1).p(0, 0);
+  int with_length = 0;
+  for (const ExactCondition& condition : conditions) {
+    const TrigPolynomial& zero = condition.base;
+    if (jointsOf(exact, zero).size() == zero.symbols().size()) continue;  // s5 has no length to put in.
+    ++with_length;
+    EXPECT_TRUE(whereZero({zero}, zero * x, kMostTerms).isZero()) << condition.numeric.name;
+    EXPECT_EQ(whereZero({zero}, zero * x, 1), zero * x) << "beyond the bound nothing is put in";
+    const TrigPolynomial plain = whereZero({zero}, x, kMostTerms);
+    EXPECT_FALSE(plain == x);
+    EXPECT_EQ(whereZero({zero}, x + zero, kMostTerms), plain);
+    for (const VectorX& q : commonZeros(arm.chain, {&condition.numeric}, 3)) {
+      std::vector<double> values = arm.symbolic.symbols().valuesAt(q);
+      EXPECT_GT(std::abs(plain.evaluate(values)), 1e-3 * std::abs(x.evaluate(values)));
+    }
+  }
+  EXPECT_EQ(with_length, 2);
 }
 
 /// A direction that is not the lost one is not taken for it.
