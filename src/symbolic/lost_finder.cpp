@@ -202,6 +202,7 @@ std::vector<LostDirection> LossFinder::directionsOf(const Columns& columns, cons
   std::vector<Found> found;
   for (Found& one : given) {
     if (found.size() == kMostReduced || one.length > kMostWrenchTerms) break;
+    if (!isFactorable(one.wrench.entries)) continue;
     one.wrench = writer_.shortened(one.wrench);
     one.length = writer_.lengthOf(one.wrench) + (one.place->mixed ? kMixed : 0);
     if (one.length <= kLongestWrench + kMixed) found.push_back(std::move(one));

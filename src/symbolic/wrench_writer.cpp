@@ -1,16 +1,19 @@
 #include "wrench_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "common_content.h"
+#include "half_angle.h"
 
 namespace screwline {
 namespace {
 
 constexpr std::size_t kTooLong = 2 * kLongestWrench;
+constexpr std::size_t kMostHalfAngleTerms = 300;  ///< Of an entry; GiNaC factors more in many seconds.
 
 }  // namespace
 
@@ -18,6 +21,12 @@ std::size_t termsOf(const std::vector<TrigPolynomial>& entries) {
   std::size_t terms = 0;
   for (const TrigPolynomial& entry : entries) terms += entry.terms().size();
   return terms;
+}
+
+bool isFactorable(const std::vector<TrigPolynomial>& entries) {
+  return std::all_of(entries.begin(), entries.end(), [](const TrigPolynomial& entry) {
+    return toHalfAngles(entry).terms.size() <= kMostHalfAngleTerms;
+  });
 }
 
 void WrenchWriter::begin(const std::vector<ExactCondition>& conditions) {
@@ -128,6 +137,7 @@ LostDirection WrenchWriter::written(const ExactWrench& given) const {
   const TrigMatrix turned = exact_.pose(0, wrench.axes).R * column;
   ExactWrench in_base{wrench.point, 0, std::vector<TrigPolynomial>(6, TrigPolynomial(exact_.ring))};
   for (int i = 0; i < 3; ++i) in_base.entries[static_cast<std::size_t>(first + i)] = turned(i, 0);
+  if (!isFactorable(in_base.entries)) return direction;
   reduce(in_base.entries);
   in_base = solved(in_base);
   if (lengthOf(in_base) <= kLongestWrench) direction.in_base = formulas(in_base.entries, first);

@@ -20,6 +20,8 @@ struct ExactWrench {
 };
 
 std::size_t termsOf(const std::vector<TrigPolynomial>& entries);
+/// Whether all of the entries are short over half angles, where they are factored; their time has no other bound.
+bool isFactorable(const std::vector<TrigPolynomial>& entries);
 
 /// Brings directions, whose length means nothing, to their shortest form where conditions hold, and writes them.
 class WrenchWriter {
