@@ -69,8 +69,9 @@ TEST(SampleKernels, PiecesAreTheirPolynomials) {
           return SampleOutput{v[0].data(), v[1].data(), v[2].data(), v[3].data()};
         };
         const SampleOutput to = outputOf(piece);
-        kernels->piece(pieces.coefficients.data(), {joints, degree}, x, rate, to.position, to.velocity, to.acceleration,
-                       to.jerk);
+        const PieceShape shape{joints, degree};
+        kernels->piece(shape)(pieces.coefficients.data(), shape, x, rate, to.position, to.velocity, to.acceleration,
+                              to.jerk);
         kernels->segment({pieces.coefficients.data(), joints, degree}, x,
                          {rate, 0.0, rate * rate, 0.0, 0.0, rate * rate * rate}, outputOf(segment));
         const std::string what = std::to_string(joints) + " joints, degree " + std::to_string(degree);
@@ -88,9 +89,13 @@ TEST(SampleKernels, LinesFollowTheScaling) {
       for (int degree = 0; degree <= Polynomial::kMaxDegree; ++degree) {
         const std::vector<double> breaks{0.0, 0.2, 0.7, 1.0};
         const PiecewisePolynomial pieces = randomPieces(random, 1, degree, breaks);
-        const ScalingTable table(pieces, 2.0);
-        DeltaLine line{joints, std::vector<double>(2 * static_cast<std::size_t>(joints))};
-        for (double& value : line.values) value = uniform(random, -3.0, 3.0);
+        ScaledLine line;
+        line.scale = ScalingTable(pieces, 2.0);
+        line.joints = joints;
+        for (int i = 0; i < joints; ++i) {
+          line.start.push_back(uniform(random, -3.0, 3.0));
+          line.delta.push_back(uniform(random, -3.0, 3.0));
+        }
         for (double tau : {0.0, uniform(random, 0.0, 0.2), 0.2, uniform(random, 0.2, 0.7), 0.7, 1.0}) {
           const std::size_t k = tau < 0.2 ? 0 : tau < 0.7 ? 1 : 2;
           const double length = pieces.length(k);
@@ -99,15 +104,13 @@ TEST(SampleKernels, LinesFollowTheScaling) {
             const double by_x = derivativeAt(pieces.piece(k, 0), order, (tau - breaks[k]) / length);
             const double s = by_x / std::pow(2.0 * length, order);
             for (std::size_t i = 0; i < static_cast<std::size_t>(joints); ++i) {
-              const double start = order == 0 ? line.values[i] : 0.0;
-              expected[static_cast<std::size_t>(order)].push_back(
-                  start + s * line.values[i + static_cast<std::size_t>(joints)]);
+              const double start = order == 0 ? line.start[i] : 0.0;
+              expected[static_cast<std::size_t>(order)].push_back(start + s * line.delta[i]);
             }
           }
           Samples samples(joints);
           auto& v = samples.values;
-          (table.hasLongRows() ? kernels->long_delta : kernels->short_delta)(table, 2.0 * tau, line, v[0].data(),
-                                                                             v[1].data(), v[2].data(), v[3].data());
+          kernels->line(line)(line, 2.0 * tau, v[0].data(), v[1].data(), v[2].data(), v[3].data());
           expectSamples(
               samples, expected,
               std::to_string(joints) + " joints, degree " + std::to_string(degree) + ", tau " + std::to_string(tau));
