@@ -100,7 +100,8 @@ TEST(ToolPath, CornersTellWhatSamplesOfThePathShow) {
       off_lines = std::max(off_lines, std::min(off[0], off[1]));
       if (std::min(off[0], off[1]) > 1e-9) reach = std::max(reach, (p - poses[1].p).norm());
     }
-    EXPECT_NEAR(corners[1].off_lines, off_lines, 1e-5) << "seed 47, trial " << trial;
+    EXPECT_LE(off_lines, corners[1].off_lines + 1e-12) << "seed 47, trial " << trial;
+    EXPECT_GE(off_lines, corners[1].off_lines - 2e-4) << "between samples; seed 47, trial " << trial;
     EXPECT_LE(corners[1].reach, options.blend_radius * (1.0 + 1e-12)) << "seed 47, trial " << trial;
     EXPECT_LE(reach, corners[1].reach + 1e-9) << "seed 47, trial " << trial;
     EXPECT_EQ(corners[1].shortened, corners[1].reach < options.blend_radius * (1.0 - 1e-9));
