@@ -39,13 +39,12 @@ JointTrajectory JointTrajectory::scaled(VectorX start, VectorX delta, TimeLaw sc
   trajectory.delta_ = std::move(delta);
   trajectory.scaling_ = std::move(scaling);
   if (duration > kNoTime && !trajectory.scaling_.isCycloidal()) {
-    trajectory.scale_ = ScalingTable(trajectory.scaling_.pieces(), duration);
-    const SampleKernels& kernels = sampleKernels();
-    trajectory.scale_kernel_ = trajectory.scale_.hasLongRows() ? kernels.long_delta : kernels.short_delta;
-    trajectory.line_.joints = trajectory.joints_;
-    for (const VectorX* values : {&trajectory.start_, &trajectory.delta_}) {
-      trajectory.line_.values.insert(trajectory.line_.values.end(), values->data(), values->data() + values->size());
-    }
+    ScaledLine& line = trajectory.line_;
+    line.scale = ScalingTable(trajectory.scaling_.pieces(), duration);
+    line.joints = trajectory.start_.size();
+    line.start.assign(trajectory.start_.data(), trajectory.start_.data() + line.joints);
+    line.delta.assign(trajectory.delta_.data(), trajectory.delta_.data() + line.joints);
+    trajectory.line_kernel_ = sampleKernels().line(line);
   }
   return trajectory;
 }
@@ -76,6 +75,7 @@ JointTrajectory JointTrajectory::piecewise(PiecewisePolynomial motion) {
   for (std::size_t k = 0; k < motion.segments(); ++k) {
     trajectory.spans_.push_back({motion.breaks[k], inverseLengthOf(motion.length(k))});
   }
+  trajectory.piece_kernel_ = sampleKernels().piece({motion.joints, motion.degree});
   trajectory.pieces_ = std::move(motion);
   return trajectory;
 }
@@ -148,8 +148,8 @@ void JointTrajectory::sampleOther(double t, const SampleOutput& output) const {
 }
 
 void JointTrajectory::sampleScaled(double t, const SampleOutput& output) const {
-  if (scale_kernel_ != nullptr) {
-    scale_kernel_(scale_, t, line_, output.position, output.velocity, output.acceleration, output.jerk);
+  if (line_kernel_ != nullptr) {
+    line_kernel_(line_, t, output.position, output.velocity, output.acceleration, output.jerk);
     return;
   }
   const double r = inverse_duration_;

@@ -43,15 +43,19 @@ inline void segmentBlock(const SegmentCoefficients& segment, int joint, double x
   store<Real>(d1 * f.j1 + d2 * (2.0 * f.j2) + d3 * (6.0 * f.j3), output.jerk + joint);
 }
 
-/// Estrin's scheme: the pairs of rows do not wait for each other.
+/// Even and odd powers apart: neither waits for the other.
 inline Pair scalingPair(const ScalingRows& scaling, int column) {
   const double* r = scaling.rows + column;
-  const double x = scaling.x;
-  const double x2 = x * x;
-  const auto row = [r](int k) { return load<Pair>(r + 4 * k); };
-  const Pair low = (row(0) + row(1) * x) + (row(2) + row(3) * x) * x2;
-  if (!scaling.long_rows) return low;
-  return low + ((row(4) + row(5) * x) + (row(6) + row(7) * x) * x2) * (x2 * x2);
+  const double x2 = scaling.x * scaling.x;
+  int k = scaling.count - 2;
+  Pair even = load<Pair>(r + 4 * k);
+  Pair odd = load<Pair>(r + 4 * k + 4);
+  while (k > 0) {
+    k -= 2;
+    even = even * x2 + load<Pair>(r + 4 * k);
+    odd = odd * x2 + load<Pair>(r + 4 * k + 4);
+  }
+  return even + odd * scaling.x;
 }
 
 template <typename Real>
@@ -69,21 +73,45 @@ void evaluateScalingPlain(const ScalingRows& scaling, double* values) {
   store<Pair>(scalingPair(scaling, 2), values + 2);
 }
 
-void scaleLinePlain(const ScalingTable& scale, double t, const DeltaLine& line, double* position, double* velocity,
-                    double* acceleration, double* jerk) {
-  double values[4];
-  evaluateScalingPlain(scale.at(t), values);
-  const double* start = line.values.data();
-  scaleDelta(values, start, start + line.joints, line.joints, {position, velocity, acceleration, jerk});
+void evaluatePiecePlain(const double* coefficients, PieceShape shape, double x, double rate, double* position,
+                        double* velocity, double* acceleration, double* jerk) {
+  evaluateSegmentPlain({coefficients, shape.joints, shape.degree}, x,
+                       {rate, 0.0, rate * rate, 0.0, 0.0, rate * rate * rate},
+                       {position, velocity, acceleration, jerk});
 }
 
-constexpr SampleKernels kPlain{evaluateSegmentPlain, evaluateScalingPlain, scaleLinePlain, scaleLinePlain,
-                               evaluatePiecePlain};
+void scaleLinePlain(const ScaledLine& line, double t, double* position, double* velocity, double* acceleration,
+                    double* jerk) {
+  double values[4];
+  evaluateScalingPlain(line.scale.at(t), values);
+  scaleDelta(values, line.start.data(), line.delta.data(), static_cast<int>(line.joints),
+             {position, velocity, acceleration, jerk});
+}
+
+LineKernel lineKernelPlain(const ScaledLine& /*line*/) {
+  return scaleLinePlain;
+}
+
+PieceKernel pieceKernelPlain(PieceShape /*shape*/) {
+  return evaluatePiecePlain;
+}
+
+constexpr SampleKernels kPlain{evaluateSegmentPlain, evaluateScalingPlain, lineKernelPlain, pieceKernelPlain};
+
+#if defined(__x86_64__) && defined(__GNUC__)
+/// A register of the wide kernels holds four joints; fewer, and lower degrees, are the plain ones'.
+LineKernel lineKernelWide(const ScaledLine& line) {
+  return line.joints < 4 ? scaleLinePlain : lineKernelOfFour(line);
+}
+
+PieceKernel pieceKernelWide(PieceShape shape) {
+  return shape.joints < 4 || shape.degree < 3 ? evaluatePiecePlain : evaluatePieceWide;
+}
+#endif
 
 SampleKernels chosenKernels() {
 #if defined(__x86_64__) && defined(__GNUC__)
-  constexpr SampleKernels kWide{evaluateSegmentWide, evaluateScalingWide, scaleLineWide, scaleShortLineWide,
-                                evaluatePieceWide};
+  constexpr SampleKernels kWide{evaluateSegmentWide, evaluateScalingWide, lineKernelWide, pieceKernelWide};
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return kWide;
 #endif
   return kPlain;
@@ -105,13 +133,6 @@ void evaluateSegmentPlain(const SegmentCoefficients& segment, double x, const Ch
   int joint = 0;
   for (; joint + 2 <= segment.joints; joint += 2) segmentBlock<Pair>(segment, joint, x, f, output);
   if (joint < segment.joints) segmentBlock<double>(segment, joint, x, f, output);
-}
-
-void evaluatePiecePlain(const double* coefficients, PieceShape shape, double x, double rate, double* position,
-                        double* velocity, double* acceleration, double* jerk) {
-  evaluateSegmentPlain({coefficients, shape.joints, shape.degree}, x,
-                       {rate, 0.0, rate * rate, 0.0, 0.0, rate * rate * rate},
-                       {position, velocity, acceleration, jerk});
 }
 
 void scaleDelta(const double* values, const double* start, const double* delta, int joints,

@@ -60,31 +60,34 @@ struct Four {
   _mm256_storeu_pd(output.jerk + joint, _mm256_fmadd_pd(d3, _mm256_set1_pd(f.j3), j));
 }
 
-/// The same with x linear in time, of which the factors are the powers of its rate.
-[[gnu::target("avx2,fma")]] inline void finishPiece(const Four& four, double rate, double* position, double* velocity,
-                                                    double* acceleration, double* jerk) {
-  const double square = rate * rate;
-  _mm256_storeu_pd(position, four.p);
-  _mm256_storeu_pd(velocity, _mm256_mul_pd(four.d1, _mm256_set1_pd(rate)));
-  _mm256_storeu_pd(acceleration, _mm256_mul_pd(four.d2, _mm256_set1_pd(2.0 * square)));
-  _mm256_storeu_pd(jerk, _mm256_mul_pd(four.d3, _mm256_set1_pd(6.0 * square * rate)));
+/// What derivatives by x become those by time with where x is linear in it: the powers of its rate, times the factors
+/// that fourOf() leaves out.
+struct Rates {
+  __m256d x, first, second, third;
+};
+
+/// Four joints from the i-th on.
+[[gnu::target("avx2,fma")]] inline void pieceFour(const double* coefficients, PieceShape shape, const Rates& by,
+                                                  std::ptrdiff_t i, double* position, double* velocity,
+                                                  double* acceleration, double* jerk) {
+  const Four four = fourOf(coefficients + i, shape, by.x);
+  _mm256_storeu_pd(position + i, four.p);
+  _mm256_storeu_pd(velocity + i, _mm256_mul_pd(four.d1, by.first));
+  _mm256_storeu_pd(acceleration + i, _mm256_mul_pd(four.d2, by.second));
+  _mm256_storeu_pd(jerk + i, _mm256_mul_pd(four.d3, by.third));
 }
 
 /// Even and odd powers apart: neither waits for the other.
-template <bool kLong>
+template <int kRows>
 [[gnu::target("avx2,fma")]] inline __m256d scalingRow(const double* r, double at) {
   const __m256d x = _mm256_set1_pd(at);
   const __m256d x2 = _mm256_mul_pd(x, x);
-  __m256d even = _mm256_loadu_pd(r + 8);
-  __m256d odd = _mm256_loadu_pd(r + 12);
-  if constexpr (kLong) {
-    const __m256d even4 = _mm256_fmadd_pd(_mm256_loadu_pd(r + 24), x2, _mm256_loadu_pd(r + 16));
-    const __m256d odd5 = _mm256_fmadd_pd(_mm256_loadu_pd(r + 28), x2, _mm256_loadu_pd(r + 20));
-    even = _mm256_fmadd_pd(even4, x2, even);
-    odd = _mm256_fmadd_pd(odd5, x2, odd);
+  __m256d even = _mm256_loadu_pd(r + 4 * kRows - 8);
+  __m256d odd = _mm256_loadu_pd(r + 4 * kRows - 4);
+  for (int k = kRows - 4; k >= 0; k -= 2) {
+    even = _mm256_fmadd_pd(even, x2, _mm256_loadu_pd(r + 4 * k));
+    odd = _mm256_fmadd_pd(odd, x2, _mm256_loadu_pd(r + 4 * k + 4));
   }
-  even = _mm256_fmadd_pd(even, x2, _mm256_loadu_pd(r));
-  odd = _mm256_fmadd_pd(odd, x2, _mm256_loadu_pd(r + 4));
   return _mm256_fmadd_pd(odd, x, even);
 }
 
@@ -93,46 +96,32 @@ struct Spread {
   __m256d s, ds, dds, ddds;
 };
 
+/// Four joints from the i-th on.
 [[gnu::target("avx2,fma")]] inline void lineFour(const Spread& by, const double* start, const double* delta,
-                                                 double* position, double* velocity, double* acceleration,
-                                                 double* jerk) {
-  const __m256d d = _mm256_loadu_pd(delta);
-  _mm256_storeu_pd(position, _mm256_fmadd_pd(d, by.s, _mm256_loadu_pd(start)));
-  _mm256_storeu_pd(velocity, _mm256_mul_pd(d, by.ds));
-  _mm256_storeu_pd(acceleration, _mm256_mul_pd(d, by.dds));
-  _mm256_storeu_pd(jerk, _mm256_mul_pd(d, by.ddds));
+                                                 std::ptrdiff_t i, double* position, double* velocity,
+                                                 double* acceleration, double* jerk) {
+  const __m256d d = _mm256_loadu_pd(delta + i);
+  _mm256_storeu_pd(position + i, _mm256_fmadd_pd(d, by.s, _mm256_loadu_pd(start + i)));
+  _mm256_storeu_pd(velocity + i, _mm256_mul_pd(d, by.ds));
+  _mm256_storeu_pd(acceleration + i, _mm256_mul_pd(d, by.dds));
+  _mm256_storeu_pd(jerk + i, _mm256_mul_pd(d, by.ddds));
 }
 
-/// Fewer joints than a register holds. Not inlined: the others need no stack.
-[[gnu::target("avx2,fma"), gnu::noinline]] void lineOfFew(__m256d row, const DeltaLine& line, double* position,
-                                                          double* velocity, double* acceleration, double* jerk) {
-  double values[4];
-  _mm256_storeu_pd(values, row);
-  const double* start = line.values.data();
-  scaleDelta(values, start, start + line.joints, line.joints, {position, velocity, acceleration, jerk});
-}
-
-/// The last four joints may overlap those before: they get the same values twice. Not inlined: behind the lookup, which
-/// leaves the arguments where they are, neither needs a stack.
-template <bool kLong>
-[[gnu::target("avx2,fma"), gnu::noinline]] void lineAt(const double* rows, double x, const DeltaLine& line,
-                                                       double* position, double* velocity, double* acceleration,
-                                                       double* jerk) {
-  const __m256d row = scalingRow<kLong>(rows, x);
-  const std::ptrdiff_t last = line.joints - 4;
-  if (last < 0) return lineOfFew(row, line, position, velocity, acceleration, jerk);
+/// The last four joints may overlap those before: they get the same values twice.
+template <int kRows, bool kOnePiece>
+[[gnu::target("avx2,fma")]] void scaleLine(const ScaledLine& line, double t, double* position, double* velocity,
+                                           double* acceleration, double* jerk) {
+  const ScalingRows at = kOnePiece ? line.scale.inFirst(t, kRows) : line.scale.at(t, kRows);
+  const __m256d row = scalingRow<kRows>(at.rows, at.x);
   const Spread by{_mm256_permute4x64_pd(row, 0x00), _mm256_permute4x64_pd(row, 0x55), _mm256_permute4x64_pd(row, 0xaa),
                   _mm256_permute4x64_pd(row, 0xff)};
-  const double* start = line.values.data();
-  const double* delta = start + line.joints;
-  for (std::ptrdiff_t i = 0; i < last; i += 4)
-    lineFour(by, start + i, delta + i, position + i, velocity + i, acceleration + i, jerk + i);
-  lineFour(by, start + last, delta + last, position + last, velocity + last, acceleration + last, jerk + last);
-}
-
-/// Whether the wide kernels do it: joints fill a register, and there are as many derivatives.
-bool isWide(PieceShape shape) {
-  return shape.joints >= 4 && shape.degree >= 3;
+  const double* start = line.start.data();
+  const double* delta = line.delta.data();
+  const std::ptrdiff_t last = line.joints - 4;
+  lineFour(by, start, delta, 0, position, velocity, acceleration, jerk);
+  if (last == 0) return;
+  for (std::ptrdiff_t i = 4; i < last; i += 4) lineFour(by, start, delta, i, position, velocity, acceleration, jerk);
+  lineFour(by, start, delta, last, position, velocity, acceleration, jerk);
 }
 
 }  // namespace
@@ -142,7 +131,7 @@ bool isWide(PieceShape shape) {
 [[gnu::target("avx2,fma")]] void evaluateSegmentWide(const SegmentCoefficients& segment, double at,
                                                      const ChainFactors& f, const SampleOutput& output) {
   const PieceShape shape{segment.joints, segment.degree};
-  if (!isWide(shape)) return evaluateSegmentPlain(segment, at, f, output);
+  if (shape.joints < 4 || shape.degree < 3) return evaluateSegmentPlain(segment, at, f, output);
   const __m256d x = _mm256_set1_pd(at);
   const int last = shape.joints - 4;
   for (int i = 0; i < last; i += 4) finish(fourOf(segment.c + i, shape, x), i, f, output);
@@ -152,32 +141,29 @@ bool isWide(PieceShape shape) {
 [[gnu::target("avx2,fma")]] void evaluatePieceWide(const double* coefficients, PieceShape shape, double at, double rate,
                                                    double* position, double* velocity, double* acceleration,
                                                    double* jerk) {
-  if (!isWide(shape)) return evaluatePiecePlain(coefficients, shape, at, rate, position, velocity, acceleration, jerk);
-  const __m256d x = _mm256_set1_pd(at);
+  const double square = rate * rate;
+  const Rates by{_mm256_set1_pd(at), _mm256_set1_pd(rate), _mm256_set1_pd(2.0 * square),
+                 _mm256_set1_pd(6.0 * square * rate)};
   const std::ptrdiff_t last = shape.joints - 4;
-  for (std::ptrdiff_t joint = 0;; joint += 4) {
-    const std::ptrdiff_t i = std::min(joint, last);
-    finishPiece(fourOf(coefficients + i, shape, x), rate, position + i, velocity + i, acceleration + i, jerk + i);
-    if (i == last) return;
-  }
+  pieceFour(coefficients, shape, by, 0, position, velocity, acceleration, jerk);
+  if (last == 0) return;
+  for (std::ptrdiff_t i = 4; i < last; i += 4)
+    pieceFour(coefficients, shape, by, i, position, velocity, acceleration, jerk);
+  pieceFour(coefficients, shape, by, last, position, velocity, acceleration, jerk);
 }
 
 [[gnu::target("avx2,fma")]] void evaluateScalingWide(const ScalingRows& scaling, double* values) {
-  _mm256_storeu_pd(values, scaling.long_rows ? scalingRow<true>(scaling.rows, scaling.x)
-                                             : scalingRow<false>(scaling.rows, scaling.x));
+  const __m256d row = scaling.count == 4   ? scalingRow<4>(scaling.rows, scaling.x)
+                      : scaling.count == 6 ? scalingRow<6>(scaling.rows, scaling.x)
+                                           : scalingRow<8>(scaling.rows, scaling.x);
+  _mm256_storeu_pd(values, row);
 }
 
-[[gnu::target("avx2,fma")]] void scaleLineWide(const ScalingTable& scale, double t, const DeltaLine& line,
-                                               double* position, double* velocity, double* acceleration, double* jerk) {
-  const ScalingRows at = scale.at(t);
-  lineAt<true>(at.rows, at.x, line, position, velocity, acceleration, jerk);
-}
-
-[[gnu::target("avx2,fma")]] void scaleShortLineWide(const ScalingTable& scale, double t, const DeltaLine& line,
-                                                    double* position, double* velocity, double* acceleration,
-                                                    double* jerk) {
-  const ScalingRows at = scale.at(t);
-  lineAt<false>(at.rows, at.x, line, position, velocity, acceleration, jerk);
+LineKernel lineKernelOfFour(const ScaledLine& line) {
+  const bool one = line.scale.isOnePiece();
+  if (line.scale.rowCount() == 4) return one ? scaleLine<4, true> : scaleLine<4, false>;
+  if (line.scale.rowCount() == 6) return one ? scaleLine<6, true> : scaleLine<6, false>;
+  return one ? scaleLine<8, true> : scaleLine<8, false>;
 }
 
 }  // namespace screwline

@@ -5,22 +5,19 @@
 
 namespace screwline {
 
-// Of the kernels for any processor, those that the wide ones leave few joints and low degrees to.
+/// Of the kernels for any processor: the wide one leaves few joints and low degrees to it.
 void evaluateSegmentPlain(const SegmentCoefficients& segment, double x, const ChainFactors& f,
                           const SampleOutput& output);
-void evaluatePiecePlain(const double* coefficients, PieceShape shape, double x, double rate, double* position,
-                        double* velocity, double* acceleration, double* jerk);
 
 // The kernels of sample_kernel.h for x86-64 processors with AVX2 and FMA; nowhere else defined.
 void evaluateSegmentWide(const SegmentCoefficients& segment, double x, const ChainFactors& f,
                          const SampleOutput& output);
 void evaluateScalingWide(const ScalingRows& scaling, double* values);
+/// @pre at least four joints, degree at least 3.
 void evaluatePieceWide(const double* coefficients, PieceShape shape, double x, double rate, double* position,
                        double* velocity, double* acceleration, double* jerk);
-void scaleLineWide(const ScalingTable& scale, double t, const DeltaLine& line, double* position, double* velocity,
-                   double* acceleration, double* jerk);
-void scaleShortLineWide(const ScalingTable& scale, double t, const DeltaLine& line, double* position, double* velocity,
-                        double* acceleration, double* jerk);
+/// @pre at least four joints.
+LineKernel lineKernelOfFour(const ScaledLine& line);
 
 }  // namespace screwline
 

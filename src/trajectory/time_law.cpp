@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "screwline/exception.h"
 #include "screwline/spatial/pose.h"
+#include "screwline/spatial/sincos_kernel.h"
 #include "screwline/trajectory/format.h"
 
 namespace screwline {
@@ -89,8 +91,9 @@ TimeLaw::TimeLaw(PiecewisePolynomial pieces)
 ScalingSample TimeLaw::at(double tau) const {
   tau = std::min(std::max(tau, 0.0), 1.0);
   if (cycloidal_) {
-    const double sine = std::sin(kTwoPi * tau);
-    const double cosine = std::cos(kTwoPi * tau);
+    double sine;
+    double cosine;
+    sincosKernel<std::uint64_t>(kTwoPi * tau, sine, cosine);
     return {tau - sine / kTwoPi, 1.0 - cosine, kTwoPi * sine, kTwoPi * kTwoPi * cosine};
   }
   std::array<double, 4> values;

@@ -4,7 +4,6 @@
 #include "screwline/exception.h"
 #include "screwline/spatial/rotation.h"
 #include "screwline/spatial/screw.h"
-#include "screwline/trajectory/corner.h"
 #include "screwline/trajectory/format.h"
 #include "screwline/trajectory/tool_path.h"
 
@@ -36,6 +35,7 @@ struct Leg {
   double length = 0.0;
   Vector6 rate = Vector6::Zero();  ///< [dp/du in the base frame; rotation per u in the body's], or the body's screw.
   double speed = 0.0;              ///< [m] per u.
+  std::size_t goal = 0;            ///< Which pose it leads to: of repeated ones the first.
 };
 
 Leg legBetween(const Pose& from, const Pose& to, double start, const ToolPathOptions& options) {
@@ -101,7 +101,8 @@ std::vector<Leg> legsThrough(const std::vector<Pose>& poses, const ToolPathOptio
   waypoints = {0.0};
   for (std::size_t k = 1; k < poses.size(); ++k) {
     const Pose& last = legs.empty() ? poses.front() : legs.back().to;
-    const Leg leg = legBetween(last, poses[k], waypoints.back(), options);
+    Leg leg = legBetween(last, poses[k], waypoints.back(), options);
+    leg.goal = k;
     if (leg.length > kSamePose) legs.push_back(leg);
     waypoints.push_back(leg.length > kSamePose ? leg.start + leg.length : leg.start);
   }
@@ -120,6 +121,32 @@ std::vector<double> reachesOf(const std::vector<Leg>& legs, const ToolPathOption
       most[k] = options.blend_radius / std::max(legs[k - 1].speed, legs[k].speed);
   }
   return fairReaches(lengths, std::move(most));
+}
+
+/// [m] The farthest that a blend is from both lines: where it is as far from one as from the other.
+double farthestFromLines(const Leg& first, const Leg& second, double reach) {
+  const double sine = first.rate.head<3>().normalized().cross(second.rate.head<3>().normalized()).norm();
+  const Polynomial rise = cornerRise(reach);
+  double low = 0.0, high = 1.0;
+  for (int halving = 0; halving < 53; ++halving) {
+    const double x = 0.5 * (low + high);
+    (rise(x) * second.speed < rise(1.0 - x) * first.speed ? low : high) = x;
+  }
+  return rise(low) * second.speed * sine;
+}
+
+Corner cornerBetween(const Leg& first, const Leg& second, double reach, const ToolPathOptions& options) {
+  Corner corner;
+  const Bend bend = bendAt(first, second, options);
+  corner.stops = reach == 0.0 && bend != Bend::kNone;
+  if (reach == 0.0) return corner;
+  ToolPathPoint middle;
+  blend(first, second, reach, options).at(second.start, middle);
+  corner.reach = reach * std::max(first.speed, second.speed);
+  corner.deviation = (middle.pose.p - second.from.p).norm();
+  if (!options.screw) corner.off_lines = farthestFromLines(first, second, reach);
+  corner.shortened = corner.reach < options.blend_radius * (1.0 - 1e-9);
+  return corner;
 }
 
 /// Centre, normal and angle of the circle through three points.
@@ -170,7 +197,7 @@ double fractionOf(const ToolPathPiece& piece, const Vector3& via) {
 
 }  // namespace
 
-ToolPath linesThrough(const std::vector<Pose>& poses, const ToolPathOptions& options) {
+ToolLines linesThrough(const std::vector<Pose>& poses, const ToolPathOptions& options) {
   if (!(options.blend_radius >= 0.0))
     refuse("parameter 'blend_radius' is " + number(options.blend_radius) + ", it must not be negative");
   std::vector<double> waypoints;
@@ -178,29 +205,17 @@ ToolPath linesThrough(const std::vector<Pose>& poses, const ToolPathOptions& opt
   const std::vector<double> reaches = reachesOf(legs, options);
   std::vector<ToolPathPiece> pieces;
   std::vector<double> stops;
+  std::vector<Corner> corners(poses.size());
   for (std::size_t k = 0; k < legs.size(); ++k) {
-    const bool last = k + 1 == legs.size();
     const double reach = reaches[k + 1];
     if (legs[k].length - reach - reaches[k] > kSamePose)
       pieces.push_back(straight(legs[k], reaches[k], legs[k].length - reach, options));
+    if (k + 1 == legs.size()) break;
     if (reach > 0.0) pieces.push_back(blend(legs[k], legs[k + 1], reach, options));
-    if (!last && reach == 0.0 && bendAt(legs[k], legs[k + 1], options) != Bend::kNone)
-      stops.push_back(legs[k + 1].start);
+    const Corner corner = corners[legs[k].goal] = cornerBetween(legs[k], legs[k + 1], reach, options);
+    if (corner.stops) stops.push_back(legs[k + 1].start);
   }
-  return ToolPath(std::move(pieces), std::move(stops), std::move(waypoints));
-}
-
-std::vector<double> cornerReaches(const std::vector<Pose>& poses, const ToolPathOptions& options) {
-  std::vector<double> waypoints;
-  const std::vector<Leg> legs = legsThrough(poses, options, waypoints);
-  const std::vector<double> reaches = reachesOf(legs, options);
-  std::vector<double> metres(poses.size(), 0.0);
-  for (std::size_t k = 0, leg = 0; k < poses.size(); ++k) {
-    if (leg + 1 < legs.size() && waypoints[k] >= legs[leg + 1].start) ++leg;
-    if (leg > 0 && waypoints[k] == legs[leg].start)
-      metres[k] = reaches[leg] * std::max(legs[leg - 1].speed, legs[leg].speed);
-  }
-  return metres;
+  return {ToolPath(std::move(pieces), std::move(stops), std::move(waypoints)), std::move(corners)};
 }
 
 ToolPath arcThrough(const std::vector<Pose>& poses, const ArcOptions& arc, const ToolPathOptions& options) {

@@ -335,6 +335,7 @@ TEST(CartesianBlend, TheMessageSaysWhatTheCornersAre) {
   PlanRequest question = arm.request("cartesian_line", {A, at(0.1, 0.0), at(0.1, 0.06)}, q);
   question.parameters = {{"blend_radius", 0.02}};
   EXPECT_NE(joined(plan(question).notes).find("passes them at up to 0.0053"), std::string::npos);
+  EXPECT_NE(joined(plan(question).notes).find("the lines between them at up to 0.00375 m"), std::string::npos);
   EXPECT_EQ(joined(plan(question).notes).find("shared"), std::string::npos);
   question.parameters = {{"blend_radius", 0.08}};
   const PlanResult wide = plan(question);

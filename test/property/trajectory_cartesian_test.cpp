@@ -60,7 +60,7 @@ TEST_P(CartesianLine, BranchesAreThoseOfInverseKinematicsAllAlong) {
     const Pose B = forwardKinematics(arm.chain, arm.chain.clamped(q + random.vector(arm.chain.size(), -0.5, 0.5)));
     ToolPathOptions options;
     options.length_scale = arm.chain.characteristicLength();
-    const ToolPath path = linesThrough({A, B}, options);
+    const ToolPath path = linesThrough({A, B}, options).path;
     FollowRequest question;
     question.seed = q;
     const FollowResult result = followPath(arm.kinematics, path, question);

@@ -69,8 +69,9 @@ TEST(SampleKernels, PiecesAreTheirPolynomials) {
           return SampleOutput{v[0].data(), v[1].data(), v[2].data(), v[3].data()};
         };
         const SampleOutput to = outputOf(piece);
-        kernels->piece(pieces.coefficients.data(), {joints, degree}, x, rate, to.position, to.velocity, to.acceleration,
-                       to.jerk);
+        const PieceShape shape{joints, degree};
+        kernels->piece(shape)(pieces.coefficients.data(), shape, x, rate, to.position, to.velocity, to.acceleration,
+                              to.jerk);
         kernels->segment({pieces.coefficients.data(), joints, degree}, x,
                          {rate, 0.0, rate * rate, 0.0, 0.0, rate * rate * rate}, outputOf(segment));
         const std::string what = std::to_string(joints) + " joints, degree " + std::to_string(degree);
@@ -81,37 +82,58 @@ TEST(SampleKernels, PiecesAreTheirPolynomials) {
   }
 }
 
+/// A random line over a scalar of these pieces, and what its samples have to be.
+class RandomLine {
+ public:
+  RandomLine(std::mt19937& random, int joints, int degree, const std::vector<double>& breaks)
+      : pieces_(randomPieces(random, 1, degree, breaks)) {
+    line.scale = ScalingTable(pieces_, kStretch);
+    line.joints = joints;
+    for (int i = 0; i < joints; ++i) {
+      line.start.push_back(uniform(random, -3.0, 3.0));
+      line.delta.push_back(uniform(random, -3.0, 3.0));
+    }
+  }
+
+  std::vector<std::vector<double>> at(double tau) const {
+    std::size_t k = 0;
+    while (k + 1 < pieces_.segments() && pieces_.breaks[k + 1] <= tau) ++k;
+    const double length = pieces_.length(k);
+    std::vector<std::vector<double>> expected(4);
+    for (std::size_t order = 0; order < 4; ++order) {
+      const int times = static_cast<int>(order);
+      const double by_x = derivativeAt(pieces_.piece(k, 0), times, (tau - pieces_.breaks[k]) / length);
+      for (std::size_t i = 0; i < line.start.size(); ++i) {
+        const double moved = line.delta[i] * by_x / std::pow(kStretch * length, order);
+        expected[order].push_back(order == 0 ? line.start[i] + moved : moved);
+      }
+    }
+    return expected;
+  }
+
+  static constexpr double kStretch = 2.0;
+  ScaledLine line;
+
+ private:
+  PiecewisePolynomial pieces_;
+};
+
 TEST(SampleKernels, LinesFollowTheScaling) {
   std::mt19937 random(kSeed + 1);
   for (const SampleKernels* kernels : {&sampleKernels(), &plainSampleKernels()}) {
-    for (int joints = 1; joints <= 13; ++joints) {
-      for (int degree = 0; degree <= Polynomial::kMaxDegree; ++degree) {
-        const std::vector<double> breaks{0.0, 0.2, 0.7, 1.0};
-        const PiecewisePolynomial pieces = randomPieces(random, 1, degree, breaks);
-        const ScalingTable table(pieces, 2.0);
-        DeltaLine line{joints, std::vector<double>(2 * static_cast<std::size_t>(joints))};
-        for (double& value : line.values) value = uniform(random, -3.0, 3.0);
-        for (double tau : {0.0, uniform(random, 0.0, 0.2), 0.2, uniform(random, 0.2, 0.7), 0.7, 1.0}) {
-          const std::size_t k = tau < 0.2 ? 0 : tau < 0.7 ? 1 : 2;
-          const double length = pieces.length(k);
-          std::vector<std::vector<double>> expected(4);
-          for (int order = 0; order < 4; ++order) {
-            const double by_x = derivativeAt(pieces.piece(k, 0), order, (tau - breaks[k]) / length);
-            const double s = by_x / std::pow(2.0 * length, order);
-            for (std::size_t i = 0; i < static_cast<std::size_t>(joints); ++i) {
-              const double start = order == 0 ? line.values[i] : 0.0;
-              expected[static_cast<std::size_t>(order)].push_back(
-                  start + s * line.values[i + static_cast<std::size_t>(joints)]);
-            }
-          }
-          Samples samples(joints);
-          auto& v = samples.values;
-          (table.hasLongRows() ? kernels->long_delta : kernels->short_delta)(table, 2.0 * tau, line, v[0].data(),
-                                                                             v[1].data(), v[2].data(), v[3].data());
-          expectSamples(
-              samples, expected,
-              std::to_string(joints) + " joints, degree " + std::to_string(degree) + ", tau " + std::to_string(tau));
-        }
+    for (int trial = 0; trial < 2 * 13 * (Polynomial::kMaxDegree + 1); ++trial) {
+      const int joints = 1 + trial / 2 % 13;
+      const int degree = trial / 2 / 13;
+      const RandomLine motion(random, joints, degree,
+                              trial % 2 == 0 ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0, 0.2, 0.7, 1.0});
+      for (double tau : {0.0, uniform(random, 0.0, 0.2), 0.2, uniform(random, 0.2, 0.7), 0.7, 1.0}) {
+        Samples samples(joints);
+        auto& v = samples.values;
+        kernels->line(motion.line)(motion.line, RandomLine::kStretch * tau, v[0].data(), v[1].data(), v[2].data(),
+                                   v[3].data());
+        expectSamples(
+            samples, motion.at(tau),
+            std::to_string(joints) + " joints, degree " + std::to_string(degree) + ", tau " + std::to_string(tau));
       }
     }
   }

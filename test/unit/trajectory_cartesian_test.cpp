@@ -47,7 +47,7 @@ TEST(ToolPath, DerivativesOfLinesScrewsBlendsAndArcs) {
     options.blend_radius = 0.1;
     for (const bool screw : {false, true}) {
       options.screw = screw;
-      const ToolPath path = linesThrough(poses, options);
+      const ToolPath path = linesThrough(poses, options).path;
       EXPECT_EQ(path.parts(), 1U);
       for (int i = 1; i < 40; ++i) expectDerivatives(path, path.length() * i / 40.0);
       EXPECT_TRUE(isApprox(path.pose(0.0), poses[0], 1e-12));
@@ -66,11 +66,47 @@ TEST(ToolPath, ABlendCutsTheCornerByWhatItSays) {
   const Pose A, B = moved(A, 1.0, 0.0, 0.0), C = moved(A, 1.0, 1.0, 0.0);
   ToolPathOptions options;
   options.blend_radius = 0.2;
-  const ToolPath path = linesThrough({A, B, C}, options);
+  const auto [path, corners] = linesThrough({A, B, C}, options);
   EXPECT_NEAR((path.pose(path.waypoints()[1]).p - B.p).norm(), 0.1875 * std::sqrt(2.0) * 0.2, 1e-12);
+  EXPECT_NEAR(corners[1].deviation, 0.1875 * std::sqrt(2.0) * 0.2, 1e-12);
   options.blend_radius = 0.0;
-  EXPECT_EQ(linesThrough({A, B, C}, options).parts(), 2U);
-  EXPECT_EQ(linesThrough({A, B, B, moved(B, 1.0, 0.0, 0.0)}, options).parts(), 1U) << "no corner, one pose twice";
+  EXPECT_EQ(linesThrough({A, B, C}, options).path.parts(), 2U);
+  EXPECT_EQ(linesThrough({A, B, B, moved(B, 1.0, 0.0, 0.0)}, options).path.parts(), 1U) << "no corner, one pose twice";
+}
+
+/// From the line through two points.
+double awayFromLine(const Vector3& from, const Vector3& to, const Vector3& p) {
+  return (to - from).normalized().cross(p - from).norm();
+}
+
+TEST(ToolPath, CornersTellWhatSamplesOfThePathShow) {
+  trajectory_test::Random random(47);
+  for (int trial = 0; trial < 40; ++trial) {
+    std::vector<Pose> poses;
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 axis = random.vector(3, -1.0, 1.0).normalized();
+      poses.push_back({rotationAbout(axis, random.uniform(-1.0, 1.0)), random.vector(3, -0.5, 0.5)});
+    }
+    ToolPathOptions options;
+    options.rotates = trial % 4 != 0;
+    options.length_scale = 0.7;
+    options.blend_radius = random.uniform(0.01, 0.6);
+    const auto [path, corners] = linesThrough(poses, options);
+    double off_lines = 0.0;
+    double reach = 0.0;
+    for (int i = 0; i <= 4000; ++i) {
+      const Vector3 p = path.pose(path.length() * i / 4000.0).p;
+      const double off[] = {awayFromLine(poses[0].p, poses[1].p, p), awayFromLine(poses[1].p, poses[2].p, p)};
+      off_lines = std::max(off_lines, std::min(off[0], off[1]));
+      if (std::min(off[0], off[1]) > 1e-9) reach = std::max(reach, (p - poses[1].p).norm());
+    }
+    EXPECT_LE(off_lines, corners[1].off_lines + 1e-12) << "seed 47, trial " << trial;
+    EXPECT_GE(off_lines, corners[1].off_lines - 2e-4) << "between samples; seed 47, trial " << trial;
+    EXPECT_LE(corners[1].reach, options.blend_radius * (1.0 + 1e-12)) << "seed 47, trial " << trial;
+    EXPECT_LE(reach, corners[1].reach + 1e-9) << "seed 47, trial " << trial;
+    EXPECT_EQ(corners[1].shortened, corners[1].reach < options.blend_radius * (1.0 - 1e-9));
+    EXPECT_EQ(corners[0].reach, 0.0);
+  }
 }
 
 TEST(CartesianArc, StaysOnTheCircleThroughThreePoses) {

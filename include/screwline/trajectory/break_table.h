@@ -25,17 +25,22 @@ class BreakTable {
     scale_ = static_cast<double>(buckets_.size()) / (breaks.back() - breaks.front());
     last_ = static_cast<double>(buckets_.size() - 1);
     for (double b : inner_) ++buckets_[bucketOf(b)].count;
-    for (std::size_t k = 1; k < buckets_.size(); ++k)
-      buckets_[k].before = buckets_[k - 1].before + buckets_[k - 1].count;
-    inner_.push_back(std::numeric_limits<double>::infinity());  // So that find() may look at one behind any bucket.
+    inner_.push_back(std::numeric_limits<double>::infinity());  // So that every bucket has a next break.
+    std::uint32_t before = 0;
+    for (Bucket& bucket : buckets_) {
+      bucket.before = before;
+      bucket.next = inner_[before];
+      before += bucket.count;
+    }
   }
 
   /// The segment that holds t, at a breakpoint the later one; outside the range the nearer end's. Does not allocate.
   std::size_t find(double t) const {
     if (buckets_.empty()) return 0;
     const Bucket& bucket = buckets_[bucketOf(t)];
+    if (bucket.count <= 1) return bucket.before + static_cast<std::size_t>(bucket.next <= t);  // As most are.
     const double* next = inner_.data() + bucket.before;
-    for (std::size_t left = bucket.count; left > 1;) {  // Most buckets hold one break or none.
+    for (std::size_t left = bucket.count; left > 1;) {
       const std::size_t half = left / 2;
       if (next[half - 1] <= t) next += half;
       left -= half;
@@ -45,6 +50,7 @@ class BreakTable {
 
  private:
   struct Bucket {
+    double next = 0.0;         ///< The first break in it or behind it.
     std::uint32_t before = 0;  ///< Breaks in the buckets before it.
     std::uint32_t count = 0;   ///< Breaks in it.
   };

@@ -10,7 +10,8 @@
 
 namespace screwline {
 
-/// How one waypoint between the ends is passed by a way of lines. Distances are Euclidean in joint space [rad or m].
+/// How one waypoint between the ends is passed by a way of lines. Distances are Euclidean, in joint space [rad or m] or
+/// of the tip [m].
 struct Corner {
   double reach = 0.0;      ///< The line is left and met again so far from the waypoint: at most the radius.
   double deviation = 0.0;  ///< The nearest that the way comes to the waypoint.

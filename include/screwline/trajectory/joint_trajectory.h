@@ -70,8 +70,8 @@ class JointTrajectory {
   /// The same into arrays of n doubles. Never allocates.
   void sample(double t, double* position, double* velocity, double* acceleration, double* jerk) const {
     const bool inside = t >= 0.0 && t <= duration_;
-    if (inside && scale_kernel_ != nullptr) {
-      scale_kernel_(scale_, t, line_, position, velocity, acceleration, jerk);
+    if (inside && line_kernel_ != nullptr) {
+      line_kernel_(line_, t, position, velocity, acceleration, jerk);
     } else if (inside && !spans_.empty()) {
       samplePieces(t, {position, velocity, acceleration, jerk});
     } else {
@@ -125,17 +125,16 @@ class JointTrajectory {
   VectorX start_;
   VectorX delta_;
   TimeLaw scaling_ = TimeLaw::rectangular();
-  ScalingTable scale_;  ///< s by time, of the scaled form; empty where s is no polynomial or nothing takes time.
-  DeltaKernel scale_kernel_ = nullptr;  ///< For its rows; null where it is empty.
-  DeltaLine line_;                      ///< start_ and delta_, for them.
-  ScalingTable along_;                  ///< u by time, along a path.
+  ScaledLine line_;  ///< The scaled form by time; empty where s is no polynomial or nothing takes time.
+  LineKernel line_kernel_ = nullptr;  ///< Null where it is empty.
+  ScalingTable along_;                ///< u by time, along a path.
   JointPath path_;
   std::vector<JointExtrema> extrema_;  ///< Along a path: of each joint.
   PiecewisePolynomial pieces_;
   BreakTable breaks_;  ///< Of the pieces.
   std::vector<Span> spans_;
   std::size_t stride_ = 0;
-  PieceKernel piece_kernel_ = sampleKernels().piece;
+  PieceKernel piece_kernel_ = nullptr;  ///< Null without pieces.
   Sinusoid sinusoid_;
 };
 

@@ -1,11 +1,9 @@
 #ifndef SCREWLINE_TRAJECTORY_SAMPLE_KERNEL_H
 #define SCREWLINE_TRAJECTORY_SAMPLE_KERNEL_H
 
-#include <vector>
-
 namespace screwline {
 
-class ScalingTable;
+struct ScaledLine;
 
 /// Coefficients of the polynomials of all joints over one segment, as [power][joint].
 struct SegmentCoefficients {
@@ -33,18 +31,11 @@ struct SampleOutput {
   double* jerk = nullptr;
 };
 
-/// The polynomial piece of a scalar s: row k holds the coefficients of x^k in s, s', s'', s''' (4 values), all rows up
-/// to x^7 or, where not long, to x^3.
+/// The polynomial piece of a scalar s: row k holds the coefficients of x^k in s, s', s'', s''' (4 values).
 struct ScalingRows {
   const double* rows = nullptr;
-  bool long_rows = true;
+  int count = 8;   ///< 4, 6 or 8: up to x^3, x^5 or x^7.
   double x = 0.0;  ///< In [0, 1].
-};
-
-/// What a scalar s moves: start + delta s.
-struct DeltaLine {
-  int joints = 0;
-  std::vector<double> values;  ///< Start, then delta, of each joint.
 };
 
 /// Of the polynomials of all joints: as SegmentCoefficients.
@@ -55,9 +46,9 @@ struct PieceShape {
 
 // Kernels whose arguments fit into registers.
 
-/// The line where s stands at t.
-using DeltaKernel = void (*)(const ScalingTable& scale, double t, const DeltaLine& line, double* position,
-                             double* velocity, double* acceleration, double* jerk);
+/// start + delta s(t), delta s', delta s'', delta s'''.
+using LineKernel = void (*)(const ScaledLine& line, double t, double* position, double* velocity, double* acceleration,
+                            double* jerk);
 
 /// SegmentCoefficients at x, which is linear in time: its rate is dx/dt.
 using PieceKernel = void (*)(const double* coefficients, PieceShape shape, double x, double rate, double* position,
@@ -70,11 +61,10 @@ struct SampleKernels {
   void (*segment)(const SegmentCoefficients& segment, double x, const ChainFactors& chain, const SampleOutput& output);
   /// s and its three derivatives into 4 values.
   void (*scaling)(const ScalingRows& scaling, double* values);
-  /// One scalar for all joints: start + delta s, delta s', delta s'', delta s'''. From 8 and from 4 rows.
-  DeltaKernel long_delta;
-  DeltaKernel short_delta;
-  /// segment() where x is linear in time.
-  PieceKernel piece;
+  /// The kernel for a line: by the number of its joints, of the pieces of its scaling and of their rows.
+  LineKernel (*line)(const ScaledLine& line);
+  /// The kernel of segment() where x is linear in time.
+  PieceKernel (*piece)(PieceShape shape);
 };
 
 /// For the processor that this runs on (AVX2 and FMA where it has them), and for any: the same but for rounding.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <new>
 #include <vector>
 
 #include "screwline/trajectory/break_table.h"
@@ -20,6 +22,21 @@ inline double inverseLengthOf(double length) {
   return inverse;
 }
 
+/// Memory from the beginning of a cache line on: no four neighbours that begin at a multiple of four are in two.
+template <typename T>
+struct CacheAligned {
+  using value_type = T;
+  static constexpr std::align_val_t kLine{64};
+  CacheAligned() = default;
+  template <typename U>
+  CacheAligned(const CacheAligned<U>& /*other*/) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kLine)); }
+  void deallocate(T* values, std::size_t /*n*/) { ::operator delete(values, kLine); }
+  bool operator==(const CacheAligned& /*other*/) const { return true; }
+  bool operator!=(const CacheAligned& /*other*/) const { return false; }
+};
+using AlignedValues = std::vector<double, CacheAligned<double>>;
+
 /// A scalar s(t) from polynomial pieces, laid out to be sampled: for each piece, rows of the coefficients of x^k in s,
 /// s', s'', s''', so that one pass gives all four.
 class ScalingTable {
@@ -30,29 +47,40 @@ class ScalingTable {
   /// (derivatives are by the stretched time). Allocates.
   explicit ScalingTable(const PiecewisePolynomial& pieces, double stretch = 1.0);
 
-  bool empty() const { return spans_.empty(); }
-  bool hasLongRows() const { return long_rows_; }
+  bool empty() const { return pieces_.empty(); }
+  int rowCount() const { return row_count_; }  ///< 4, 6 or 8.
+  bool isOnePiece() const { return pieces_.size() == strideOf(row_count_); }
 
   /// The rows that hold at t and the place of t in their piece; at a breakpoint the later piece's, behind the last
   /// the end. Does not allocate. @pre t >= 0
-  ScalingRows at(double t) const {
-    const std::size_t k = breaks_.find(t);
-    const Span& span = spans_[k];
-    const double x = std::min(1.0, (t - span.start) * span.inverse_length);
-    return {rows_.data() + k * stride_, long_rows_, x};
-  }
+  ScalingRows at(double t) const { return at(t, row_count_); }
+
+  /// The same for code that is compiled for one number of rows, and for one piece alone. @pre row_count is rowCount()
+  ScalingRows at(double t, int row_count) const { return in(breaks_.find(t), t, row_count); }
+  ScalingRows inFirst(double t, int row_count) const { return in(0, t, row_count); }
 
  private:
-  struct Span {
-    double start = 0.0;
-    double inverse_length = 1.0;  ///< Rounded up: at its end the place in a piece is 1. 0 for one that takes no time.
-  };
+  /// Whole cache lines for the rows of a piece, its start, and its inverse length: rounded up, so that the place at its
+  /// end is 1, and 0 for a piece that takes no time.
+  static std::size_t strideOf(int row_count) { return (4 * static_cast<std::size_t>(row_count) + 2 + 7) / 8 * 8; }
+
+  ScalingRows in(std::size_t k, double t, int row_count) const {
+    const double* piece = pieces_.data() + k * strideOf(row_count);
+    const double* span = piece + 4 * row_count;
+    return {piece, row_count, std::min(1.0, (t - span[0]) * span[1])};
+  }
 
   BreakTable breaks_;
-  std::vector<Span> spans_;
-  std::vector<double> rows_;
-  std::size_t stride_ = 32;
-  bool long_rows_ = true;  ///< 8 rows for each piece, else 4.
+  AlignedValues pieces_;
+  int row_count_ = 8;
+};
+
+/// A scalar s(t) and what it moves: start + delta s(t), values of each joint.
+struct ScaledLine {
+  ScalingTable scale;
+  std::ptrdiff_t joints = 0;
+  AlignedValues start;
+  AlignedValues delta;
 };
 
 }  // namespace screwline

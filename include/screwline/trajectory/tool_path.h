@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "screwline/spatial/pose.h"
+#include "screwline/trajectory/corner.h"
 #include "screwline/trajectory/polynomial.h"
 
 namespace screwline {
@@ -76,15 +77,19 @@ struct ToolPathOptions {
   double blend_radius = 0.0;  ///< [m] A corner is left and met again at this distance at most; 0: stop there.
 };
 
+/// A path of lines and how it passes each pose [m]. Ends, repeated poses, and those in which lines go straight on are
+/// corners without a reach; off_lines is not known of screws (0).
+struct ToolLines {
+  ToolPath path;
+  std::vector<Corner> corners;
+};
+
 /// Lines from pose to pose: the origin at constant speed on the straight, the orientation about one constant axis (or
 /// one screw for both). Blends (cornerRise) are C2 in u, share lines that are too short for them fairly (fairReaches),
 /// and pass a corner of two lines at right angles at 0.27 blend_radius. The path stops where it goes straight back, or
 /// where the tip only turns before or behind a corner. Repeated poses count once.
 /// @pre at least one pose, rotations orthonormal. @throws InputError(kInvalidGoal) for a blend_radius that is negative.
-ToolPath linesThrough(const std::vector<Pose>& poses, const ToolPathOptions& options);
-
-/// [m] How far before and behind each pose that path leaves its lines: at most the blend_radius, 0 where it does not.
-std::vector<double> cornerReaches(const std::vector<Pose>& poses, const ToolPathOptions& options);
+ToolLines linesThrough(const std::vector<Pose>& poses, const ToolPathOptions& options);
 
 struct ArcOptions {
   bool centre = false;          ///< The second pose is the circle's centre, not a point on it.
