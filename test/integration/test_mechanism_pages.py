@@ -75,6 +75,31 @@ class Pages(unittest.TestCase):
                 self.assertIn('Lost:', condition, robot)
 
 
+class Tables(unittest.TestCase):
+    TABLE = os.path.join(ROOT, 'config', 'dh', 'two_link_lift.yaml')
+
+    def derived(self, *words):
+        run = subprocess.run([DERIVE] + list(words), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        return run.returncode, run.stdout.decode(), run.stderr.decode()
+
+    def test_derive_what_their_urdf_derives(self):
+        with tempfile.TemporaryDirectory() as folder:
+            urdf = os.path.join(folder, 'arm.urdf')
+            with open(urdf, 'wb') as stream:
+                dh_to_urdf = os.path.join(os.path.dirname(DERIVE), 'dh_to_urdf')
+                subprocess.run([dh_to_urdf, self.TABLE], stdout=stream, check=True)
+            words = ('--quantities', 'fk,determinant,singularities')
+            code, of_urdf, _ = self.derived(urdf, *words)
+            self.assertEqual(code, 0)
+            self.assertIn('det', of_urdf)
+            self.assertEqual(self.derived(self.TABLE, *words)[:2], (0, of_urdf))
+
+    def test_have_no_links_to_choose(self):
+        code, document, error = self.derived(self.TABLE, '--base', 'world')
+        self.assertEqual((code, document), (1, ''))
+        self.assertIn('--base', error)
+
+
 class Formats(unittest.TestCase):
     def test_html_needs_nothing_else(self):
         page = derive('puma560', '--format', 'html').stdout.decode()
