@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
+#include <optional>
 #include <utility>
 
 namespace screwline {
@@ -89,14 +91,19 @@ class Converter {
       throw DerivationStopped("the chain has more lengths and joints than a derivation handles");
   }
 
-  HalfAnglePolynomial convert() {
+  /// None as soon as there are more than `most_terms`.
+  std::optional<HalfAnglePolynomial> convert(std::size_t most_terms) {
     const std::size_t scalars = at(ring_.scalarOffset(ring_.scalars().size()));
     for (const auto& [key, coefficient] : source_.terms()) {
       TrigKey start{};
       std::copy_n(key.begin(), scalars, start.begin());
       Factor product = {{start, coefficient}};
-      for (const AngleGroup& group : ring_.groups()) multiplyGroup(group, key, product);
+      for (const AngleGroup& group : ring_.groups()) {
+        multiplyGroup(group, key, product);
+        if (product.size() > most_terms) return std::nullopt;
+      }
       for (const auto& [u_key, u_coefficient] : product) addTo(result_.terms, u_key, u_coefficient);
+      if (result_.terms.size() > most_terms) return std::nullopt;
       ring_.poll();
     }
     return std::move(result_);
@@ -176,7 +183,11 @@ class Converter {
 }  // namespace
 
 HalfAnglePolynomial toHalfAngles(const TrigPolynomial& polynomial) {
-  return Converter(polynomial).convert();
+  return *Converter(polynomial).convert(std::numeric_limits<std::size_t>::max());
+}
+
+bool isShortInHalfAngles(const TrigPolynomial& polynomial, std::size_t most_terms) {
+  return Converter(polynomial).convert(most_terms).has_value();
 }
 
 TrigPolynomial fromHalfAngles(const RingPointer& ring, const HalfAnglePolynomial& polynomial) {

@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_SRC_SYMBOLIC_HALF_ANGLE_H
 #define SCREWLINE_SRC_SYMBOLIC_HALF_ANGLE_H
 
+#include <cstddef>
 #include <map>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct HalfAnglePolynomial {
 };
 
 HalfAnglePolynomial toHalfAngles(const TrigPolynomial& polynomial);
+/// Whether it takes no more than `most_terms`, on the way there too; found in time of that order.
+bool isShortInHalfAngles(const TrigPolynomial& polynomial, std::size_t most_terms);
 /// @pre all degrees are even.
 TrigPolynomial fromHalfAngles(const RingPointer& ring, const HalfAnglePolynomial& polynomial);
 

@@ -24,9 +24,8 @@ std::size_t termsOf(const std::vector<TrigPolynomial>& entries) {
 }
 
 bool isFactorable(const std::vector<TrigPolynomial>& entries) {
-  return std::all_of(entries.begin(), entries.end(), [](const TrigPolynomial& entry) {
-    return toHalfAngles(entry).terms.size() <= kMostHalfAngleTerms;
-  });
+  return std::all_of(entries.begin(), entries.end(),
+                     [](const TrigPolynomial& entry) { return isShortInHalfAngles(entry, kMostHalfAngleTerms); });
 }
 
 void WrenchWriter::begin(const std::vector<ExactCondition>& conditions) {
