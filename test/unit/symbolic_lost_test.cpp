@@ -15,6 +15,7 @@
 
 #include "../../src/symbolic/condition_points.h"
 #include "../../src/symbolic/exact_conditions.h"
+#include "../../src/symbolic/half_angle.h"
 #include "../../src/symbolic/lost_check.h"
 #include "../../src/symbolic/where_zero.h"
 #include "golden.h"
@@ -283,6 +284,25 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Robots,
                                          "spherical_wrist", "orienting_3r", "rpp_cylindrical", "rrp_offset"));
 
 /// Virtual work: tau . qd = F . V, with the power of the tip's twist.
+/// The product of the cosines of as many joints.
+TrigPolynomial cosines(int count) {
+  std::vector<std::vector<int>> groups;
+  for (int i = 0; i < count; ++i) groups.push_back({i});
+  const auto ring = std::make_shared<const TrigRing>(std::vector<int>(), groups, ProgressWatch());
+  TrigPolynomial product = TrigPolynomial::number(ring, 1);
+  for (int i = 0; i < count; ++i) product = product * TrigPolynomial::cosine(ring, {{i, 1}});
+  return product;
+}
+
+TEST(SymbolicLost, WhatIsLongOverHalfAnglesIsToldWithoutWritingItOut) {
+  const TrigPolynomial few = cosines(5);
+  const std::size_t terms = toHalfAngles(few).terms.size();
+  EXPECT_EQ(terms, 32u);
+  EXPECT_TRUE(isShortInHalfAngles(few, terms));
+  EXPECT_FALSE(isShortInHalfAngles(few, terms - 1));
+  EXPECT_FALSE(isShortInHalfAngles(cosines(40), 300));  // 2^40 terms
+}
+
 TEST(SymbolicStatics, DoesTheWorkOfTheTip) {
   for (const char* name : {"rr_planar", "rrp_offset", "scara", "puma560", "stanford_arm"}) {
     SCOPED_TRACE(name);
