@@ -105,7 +105,7 @@ LineKernel lineKernelWide(const ScaledLine& line) {
 }
 
 PieceKernel pieceKernelWide(PieceShape shape) {
-  return shape.joints < 4 || shape.degree < 3 ? evaluatePiecePlain : evaluatePieceWide;
+  return isWide(shape) ? evaluatePieceWide : evaluatePiecePlain;
 }
 #endif
 

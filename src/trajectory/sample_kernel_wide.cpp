@@ -131,7 +131,7 @@ template <int kRows, bool kOnePiece>
 [[gnu::target("avx2,fma")]] void evaluateSegmentWide(const SegmentCoefficients& segment, double at,
                                                      const ChainFactors& f, const SampleOutput& output) {
   const PieceShape shape{segment.joints, segment.degree};
-  if (shape.joints < 4 || shape.degree < 3) return evaluateSegmentPlain(segment, at, f, output);
+  if (!isWide(shape)) return evaluateSegmentPlain(segment, at, f, output);
   const __m256d x = _mm256_set1_pd(at);
   const int last = shape.joints - 4;
   for (int i = 0; i < last; i += 4) finish(fourOf(segment.c + i, shape, x), i, f, output);

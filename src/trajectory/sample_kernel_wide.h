@@ -5,6 +5,11 @@
 
 namespace screwline {
 
+/// Whether the wide kernels do it: joints fill a register, and there are as many derivatives.
+constexpr bool isWide(PieceShape shape) {
+  return shape.joints >= 4 && shape.degree >= 3;
+}
+
 /// Of the kernels for any processor: the wide one leaves few joints and low degrees to it.
 void evaluateSegmentPlain(const SegmentCoefficients& segment, double x, const ChainFactors& f,
                           const SampleOutput& output);
@@ -13,7 +18,7 @@ void evaluateSegmentPlain(const SegmentCoefficients& segment, double x, const Ch
 void evaluateSegmentWide(const SegmentCoefficients& segment, double x, const ChainFactors& f,
                          const SampleOutput& output);
 void evaluateScalingWide(const ScalingRows& scaling, double* values);
-/// @pre at least four joints, degree at least 3.
+/// @pre isWide(shape).
 void evaluatePieceWide(const double* coefficients, PieceShape shape, double x, double rate, double* position,
                        double* velocity, double* acceleration, double* jerk);
 /// @pre at least four joints.

@@ -135,13 +135,12 @@ double farthestFromLines(const Leg& first, const Leg& second, double reach) {
   return rise(low) * second.speed * sine;
 }
 
-Corner cornerBetween(const Leg& first, const Leg& second, double reach, const ToolPathOptions& options) {
-  Corner corner;
-  const Bend bend = bendAt(first, second, options);
-  corner.stops = reach == 0.0 && bend != Bend::kNone;
-  if (reach == 0.0) return corner;
+/// The corner that a blend of the two lines passes.
+Corner cornerPassedBy(const ToolPathPiece& piece, const Leg& first, const Leg& second, double reach,
+                      const ToolPathOptions& options) {
   ToolPathPoint middle;
-  blend(first, second, reach, options).at(second.start, middle);
+  piece.at(second.start, middle);
+  Corner corner;
   corner.reach = reach * std::max(first.speed, second.speed);
   corner.deviation = (middle.pose.p - second.from.p).norm();
   if (!options.screw) corner.off_lines = farthestFromLines(first, second, reach);
@@ -211,9 +210,14 @@ ToolLines linesThrough(const std::vector<Pose>& poses, const ToolPathOptions& op
     if (legs[k].length - reach - reaches[k] > kSamePose)
       pieces.push_back(straight(legs[k], reaches[k], legs[k].length - reach, options));
     if (k + 1 == legs.size()) break;
-    if (reach > 0.0) pieces.push_back(blend(legs[k], legs[k + 1], reach, options));
-    const Corner corner = corners[legs[k].goal] = cornerBetween(legs[k], legs[k + 1], reach, options);
-    if (corner.stops) stops.push_back(legs[k + 1].start);
+    Corner& corner = corners[legs[k].goal];
+    if (reach > 0.0) {
+      pieces.push_back(blend(legs[k], legs[k + 1], reach, options));
+      corner = cornerPassedBy(pieces.back(), legs[k], legs[k + 1], reach, options);
+    } else if (bendAt(legs[k], legs[k + 1], options) != Bend::kNone) {
+      corner.stops = true;
+      stops.push_back(legs[k + 1].start);
+    }
   }
   return {ToolPath(std::move(pieces), std::move(stops), std::move(waypoints)), std::move(corners)};
 }

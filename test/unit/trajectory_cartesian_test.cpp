@@ -34,14 +34,19 @@ void expectDerivatives(const ToolPath& path, double u) {
   EXPECT_LT((at.change - (ahead.rate - behind.rate) / (2 * kStep)).norm(), 1e-6) << u;
 }
 
+std::vector<Pose> threePoses(Random& random) {
+  std::vector<Pose> poses;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3 axis = random.vector(3, -1.0, 1.0).normalized();
+    poses.push_back({rotationAbout(axis, random.uniform(-1.0, 1.0)), random.vector(3, -0.5, 0.5)});
+  }
+  return poses;
+}
+
 TEST(ToolPath, DerivativesOfLinesScrewsBlendsAndArcs) {
   Random random(3);
   for (int k = 0; k < 20; ++k) {
-    std::vector<Pose> poses;
-    for (int i = 0; i < 3; ++i) {
-      const Vector3 axis = random.vector(3, -1.0, 1.0).normalized();
-      poses.push_back({rotationAbout(axis, random.uniform(-1.0, 1.0)), random.vector(3, -0.5, 0.5)});
-    }
+    const std::vector<Pose> poses = threePoses(random);
     ToolPathOptions options;
     options.length_scale = 0.7;
     options.blend_radius = 0.1;
@@ -82,11 +87,7 @@ double awayFromLine(const Vector3& from, const Vector3& to, const Vector3& p) {
 TEST(ToolPath, CornersTellWhatSamplesOfThePathShow) {
   trajectory_test::Random random(47);
   for (int trial = 0; trial < 40; ++trial) {
-    std::vector<Pose> poses;
-    for (int i = 0; i < 3; ++i) {
-      const Vector3 axis = random.vector(3, -1.0, 1.0).normalized();
-      poses.push_back({rotationAbout(axis, random.uniform(-1.0, 1.0)), random.vector(3, -0.5, 0.5)});
-    }
+    const std::vector<Pose> poses = threePoses(random);
     ToolPathOptions options;
     options.rotates = trial % 4 != 0;
     options.length_scale = 0.7;
