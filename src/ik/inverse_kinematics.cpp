@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "account.h"
+#include "almost_singular.h"
 #include "completed_method.h"
 #include "ik_request_check.h"
-#include "mate.h"
 #include "nearly_ideal.h"
 #include "parallel_candidates.h"
 #include "plan_candidates.h"
@@ -76,9 +76,6 @@ struct InverseKinematics::Implementation {
   bool keep(const IkRequest& request, std::vector<Candidate> candidates, const SolutionBuilder& builder,
             IkResult& result) const;
   bool gather(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
-  bool isAlmostSingular(const IkAnswer& solution) const;
-  bool addMates(const IkAnswer& solution, const Pose& target, const SolutionBuilder& builder,
-                std::vector<IkAnswer>& mates) const;
   void admit(const IkRequest& request, IkAnswer solution, const SolutionBuilder& builder, IkResult& result) const;
   void dropRepeated(const IkRequest& request, IkResult& result) const;
   void doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
@@ -153,46 +150,23 @@ std::vector<Candidate> InverseKinematics::Implementation::withSearched(const IkR
 bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vector<Candidate> candidates,
                                              const SolutionBuilder& builder, IkResult& result) const {
   bool all = true;
-  std::vector<IkAnswer> mates;
+  std::vector<IkAnswer> answers;
+  answers.reserve(candidates.size());
   for (Candidate& candidate : candidates) {
-    std::optional<IkAnswer> solution = builder.build(std::move(candidate));
-    if (!solution) {
+    std::optional<IkAnswer> answer = builder.build(std::move(candidate));
+    if (!answer) {
       // Rows that the plan does not know reject solutions rightly; its own rows never should.
       if (algebraic || parallel || completed || (plan && plan->task.size() == task.size())) all = false;
       continue;
     }
-    if (chain.size() > task.size() && solution->self_motion.rows() == 0) describeRedundancy(chain, task, *solution);
-    if (isAlmostSingular(*solution) && addMates(*solution, request.target, builder, mates)) continue;
-    admit(request, std::move(*solution), builder, result);
+    if (chain.size() > task.size() && answer->self_motion.rows() == 0) describeRedundancy(chain, task, *answer);
+    answers.push_back(std::move(*answer));
   }
-  for (IkAnswer& mate : mates) {
-    const bool known = std::any_of(result.solutions.begin(), result.solutions.end(), [&](const IkAnswer& answer) {
-      return isSameConfiguration(chain, mate.position, answer.position);
-    });
-    if (!known) admit(request, std::move(mate), builder, result);
+  if ((plan || completed || algebraic) && chain.size() == task.size()) {
+    completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers);
   }
+  for (IkAnswer& answer : answers) admit(request, std::move(answer), builder, result);
   return all;
-}
-
-/// The solutions that an almost singular one is about to meet. True where they stand for it, which rounding has put
-/// between them.
-bool InverseKinematics::Implementation::addMates(const IkAnswer& solution, const Pose& target,
-                                                 const SolutionBuilder& builder, std::vector<IkAnswer>& mates) const {
-  const std::vector<VectorX> near = solutionsAbout(chain, task, target, solution.position);
-  const auto isOther = [&](const VectorX& q) { return !isSameConfiguration(chain, q, solution.position); };
-  for (const VectorX& q : near) {
-    if (!isOther(q)) continue;
-    Candidate candidate = unnamed(q);
-    candidate.branch = solution.branch;
-    if (std::optional<IkAnswer> built = builder.build(std::move(candidate))) mates.push_back(std::move(*built));
-  }
-  return !near.empty() && isOther(near.front());
-}
-
-/// By what costs nothing; mateOf() looks closer.
-bool InverseKinematics::Implementation::isAlmostSingular(const IkAnswer& solution) const {
-  return (plan || completed || algebraic) && chain.size() == task.size() && solution.self_motion.rows() == 0 &&
-         solution.manipulability <= almost_singular;
 }
 
 /// Refinement has brought candidates together that were apart, and pieces of one curve may have the same nearest

@@ -2,10 +2,14 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
-#include "screwline/kinematics/jacobian.h"
-#include "screwline/spatial/svd.h"
+#include "candidate.h"
+#include "numerical/task_residual.h"
+#include "screwline/ik/closed_form/roots.h"
+#include "screwline/spatial/small_svd.h"
 
 namespace screwline {
 namespace {
@@ -19,109 +23,173 @@ constexpr double kFarthest = 0.05;       // [rad, m]
 constexpr double kExact = 1e-13;         // [m, rad]
 constexpr double kRounding = 4e-16;      // [m, rad] Residuals that steps would not lessen.
 constexpr int kMaxSteps = 20;
-constexpr int kCircle = 8;  // Starts about a solution that is singular twice.
+constexpr double kOnTarget = 1e-15;   // Of 1 and the chain's length: a residual that is rounding.
+constexpr double kRecognised = 0.25;  // Of the way to the next root: what is nearer is this one.
 
-/// The task's residual and its Jacobian.
-class Residual {
- public:
-  Residual(const SerialChain& chain, const Task& task, const Pose& target)
-      : chain_(chain), task_(task), target_(target) {}
+using Plane = Eigen::Vector2d;
 
-  VectorX at(const VectorX& q) {
-    tip_ = geometricJacobian(chain_, q, J_);
-    return task_.select(taskError(task_, target_, tip_).twist, tip_.R);
-  }
-  MatrixX jacobian() const { return task_.select(J_, tip_.R); }
-
- private:
-  const SerialChain& chain_;
-  const Task& task_;
-  const Pose& target_;
-  Pose tip_;
-  Matrix6X J_;
+/// Residual along the weak directions, r - s t - t^T K t / 2; the second component is that of the weakest.
+struct Reduced {
+  Plane r;
+  Plane s;
+  std::array<Eigen::Matrix2d, 2> K;
 };
 
-/// Of the residual along u on the way n: how far its roots are, the nearer first. `bound`: no farther where they are
-/// not real. 0: none.
-struct Along {
-  double near = 0.0;
-  double far = 0.0;
-  double bound = 0.0;
-  double kappa = 0.0;
-};
-
-Along rootsAlong(Residual& residual, const VectorX& q, const VectorX& n, const VectorX& u, double sigma) {
-  const double r = u.dot(residual.at(q));
-  const double bend = u.dot(residual.at(q + kProbe * n) + residual.at(q - kProbe * n)) - 2.0 * r;
-  const double kappa = -bend / (kProbe * kProbe);
+/// The roots of one unknown.
+std::vector<Plane> rootsOfOne(const Reduced& reduced) {
+  const double r = reduced.r[1];
+  const double sigma = reduced.s[1];
+  const double kappa = reduced.K[1](1, 1);
   const double discriminant = sigma * sigma + 2.0 * kappa * r;
-  Along along;
-  along.kappa = kappa;
-  along.bound = (sigma + std::sqrt(std::abs(discriminant))) / std::abs(kappa);
-  if (!(discriminant > 0.0)) return along;
-  const double root = std::sqrt(discriminant);
-  along.near = 2.0 * r / (sigma + root);
-  along.far = -(sigma + root) / kappa;
-  return along;
+  if (!(discriminant > 0.0)) return {};
+  const double sum = sigma + std::sqrt(discriminant);
+  if (r == 0.0) return {{0.0, -sum / kappa}};
+  return {{0.0, 2.0 * r / sum}, {0.0, -sum / kappa}};
+}
+
+/// k + b y + a y^2 whose coefficients are polynomials in x.
+struct Conic {
+  Conic(double r, const Plane& slope, const Eigen::Matrix2d& K)
+      : k{r, -slope[0], -0.5 * K(0, 0)}, b{-slope[1], -K(0, 1)}, a(-0.5 * K(1, 1)) {}
+  std::array<double, 3> k;
+  std::array<double, 2> b;
+  double a;
+};
+
+template <std::size_t M, std::size_t N>
+std::array<double, M + N - 1> product(const std::array<double, M>& f, const std::array<double, N>& g) {
+  std::array<double, M + N - 1> fg{};
+  for (std::size_t i = 0; i < M; ++i) {
+    for (std::size_t k = 0; k < N; ++k) fg[i + k] += f[i] * g[k];
+  }
+  return fg;
+}
+
+template <std::size_t N>
+std::array<double, N> combination(double a, const std::array<double, N>& f, double b, const std::array<double, N>& g) {
+  std::array<double, N> sum{};
+  for (std::size_t i = 0; i < N; ++i) sum[i] = a * f[i] + b * g[i];
+  return sum;
+}
+
+/// The points that two conics share: the resultant that eliminates y is a quartic in x. The axes are turned first, so
+/// that points which are mirror images in the old ones do not share an x.
+std::vector<Plane> rootsOfTwo(const Reduced& reduced) {
+  Eigen::Matrix2d turn;
+  turn << 0.8, -0.6, 0.6, 0.8;
+  const auto conic = [&](Eigen::Index i) {
+    const Plane slope = reduced.s[i] * turn.row(i).transpose();
+    return Conic(reduced.r[i], slope, turn.transpose() * reduced.K[static_cast<std::size_t>(i)] * turn);
+  };
+  const Conic f = conic(0);
+  const Conic g = conic(1);
+  const std::array<double, 3> ak = combination(f.a, g.k, -g.a, f.k);
+  const std::array<double, 2> ab = combination(f.a, g.b, -g.a, f.b);
+  const std::array<double, 4> bk = combination(1.0, product(f.b, g.k), -1.0, product(g.b, f.k));
+  const std::array<double, 5> resultant = combination(1.0, product(ak, ak), -1.0, product(ab, bk));
+  // Where zero is a root, the other three are looked for.
+  const int known = reduced.r.isZero(0.0) ? 1 : 0;
+  std::vector<Plane> roots;
+  for (const RealRoot& root : solvePolynomial(resultant.data() + known, 4 - known, 0.0)) {
+    const double x = root.value;
+    const double y = -(ak[0] + x * (ak[1] + x * ak[2])) / (ab[0] + x * ab[1]);
+    if (std::isfinite(y)) roots.push_back(turn * Plane(x, y));
+  }
+  return roots;
 }
 
 /// Newton's method from a start to a solution within `reach` of q.
-bool refine(Residual& residual, const VectorX& q, double reach, VectorX& solution) {
-  VectorX best = solution;
+bool refine(TaskResidual& residual, const JointVector& q, double reach, TaskPoint& point) {
+  JointVector best = point.q;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMaxSteps; ++k) {
-    const VectorX error = residual.at(solution);
-    const double size = error.norm();
+    residual.evaluate(point);
+    const double size = point.residual.norm();
     if (size < least) {
       least = size;
-      best = solution;
+      best = point.q;
     } else if (least <= kExact) {
       break;
     }
     if (size <= kRounding) break;
-    solution += residual.jacobian().partialPivLu().solve(error);
-    if (!((solution - q).norm() <= reach)) break;  // Another one's.
+    point.q += SmallMatrix(point.J).partialPivLu().solve(point.residual);
+    if (!((point.q - q).norm() <= reach)) break;  // Another one's.
   }
-  solution = best;
+  point.q = best;
   return least <= kExact && (best - q).norm() <= reach;
+}
+
+/// @pre unknowns is 1 or 2; with 1 the reduced quantities of the first are left zero.
+Reduced reducedAt(TaskResidual& residual, const TaskPoint& here, const SmallSvd& svd, Eigen::Index unknowns) {
+  const Eigen::Index last = here.q.size() - 1;
+  const auto bendAlong = [&](const JointVector& way) -> TaskVector {
+    TaskPoint ahead;
+    ahead.q = here.q + kProbe * way;
+    residual.evaluate(ahead);
+    return (2.0 / (kProbe * kProbe)) * (here.residual - ahead.residual - kProbe * (here.J * way));
+  };
+  Reduced reduced{Plane::Zero(), Plane::Zero(), {Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()}};
+  const TaskVector weakest = bendAlong(svd.V.col(last));
+  const TaskVector weak = unknowns == 2 ? bendAlong(svd.V.col(last - 1)) : weakest;
+  const TaskVector both = unknowns == 2 ? bendAlong(svd.V.col(last - 1) + svd.V.col(last)) : weakest;
+  for (Eigen::Index i = 2 - unknowns; i < 2; ++i) {
+    const auto u = svd.U.col(last - 1 + i);
+    reduced.r[i] = u.dot(here.residual);
+    reduced.s[i] = svd.sigma[last - 1 + i];
+    Eigen::Matrix2d& K = reduced.K[static_cast<std::size_t>(i)];
+    K(1, 1) = u.dot(weakest);
+    if (unknowns == 1) continue;
+    K(0, 0) = u.dot(weak);
+    K(0, 1) = K(1, 0) = 0.5 * (u.dot(both) - K(0, 0) - K(1, 1));
+  }
+  return reduced;
+}
+
+/// How near to a root a solution has to be to be this one: nearer than to the other roots, and than q is.
+double recognisedWithin(const std::vector<Plane>& roots, const Plane& root) {
+  double nearest = root.norm();
+  for (const Plane& other : roots) {
+    if (&other != &root) nearest = std::min(nearest, (other - root).norm());
+  }
+  return kRecognised * nearest;
 }
 
 }  // namespace
 
-std::vector<VectorX> solutionsAbout(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q) {
-  Residual residual(chain, task, target);
-  residual.at(q);
-  const Svd svd(residual.jacobian(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const VectorX sigma = svd.singularValues();
+SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q,
+                              const IsAtHand& at_hand) {
+  TaskResidual residual(chain, task, target, 1.0);
+  TaskPoint here;
+  here.q = q;
+  residual.evaluate(here);
+  const SmallSvd svd(here.J);
   const Eigen::Index last = q.size() - 1;
-  if (sigma[last] > kNearSingular * sigma[0]) return {};
-  const auto along = [&](Eigen::Index i) {
-    return rootsAlong(residual, q, svd.matrixV().col(i), svd.matrixU().col(i), sigma[i]);
-  };
-  const Along weakest = along(last);
-  if (sigma[last] < kOnContinuum && std::abs(weakest.kappa) < kStraight) return {};
-  std::vector<VectorX> starts;
-  double reach = std::max(std::abs(weakest.near), std::abs(weakest.far));
-  if (last > 0 && sigma[last - 1] < kTwiceSingular * sigma[0]) {
-    reach = std::max(weakest.bound, along(last - 1).bound);
-    for (int k = 0; k < kCircle; ++k) {
-      const double angle = kTwoPi * (k + 0.5) / kCircle;
-      starts.push_back(
-          q + reach * (std::cos(angle) * svd.matrixV().col(last) + std::sin(angle) * svd.matrixV().col(last - 1)));
+  SolutionsAbout about;
+  if (svd.sigma[last] > kNearSingular * svd.sigma[0]) return about;
+  const Eigen::Index unknowns = last > 0 && svd.sigma[last - 1] < kTwiceSingular * svd.sigma[0] ? 2 : 1;
+  Reduced reduced = reducedAt(residual, here, svd, unknowns);
+  if (svd.sigma[last] < kOnContinuum && std::abs(reduced.K[1](1, 1)) < kStraight) return about;
+  const bool on_target = here.residual.norm() <= kOnTarget * (1.0 + chain.characteristicLength());
+  if (on_target) reduced.r.setZero();
+  bool itself = on_target;
+  std::vector<Plane> roots = unknowns == 1 ? rootsOfOne(reduced) : rootsOfTwo(reduced);
+  std::sort(roots.begin(), roots.end(), [](const Plane& a, const Plane& b) { return a.norm() < b.norm(); });
+  for (const Plane& root : roots) {
+    if (!(root.norm() < kFarthest)) break;
+    TaskPoint point;
+    point.q = here.q + root[1] * svd.V.col(last);
+    if (unknowns == 2) point.q += root[0] * svd.V.col(last - 1);
+    // Where q may be none itself, the root next to it decides; the others need not be found again.
+    if (itself && at_hand(point.q, recognisedWithin(roots, root))) continue;
+    if (!refine(residual, here.q, 2.0 * root.norm(), point)) continue;
+    if (isSameConfiguration(chain, point.q, q)) {
+      itself = true;
+    } else {
+      about.solutions.push_back(point.q);
     }
   }
-  if (weakest.far != 0.0) {
-    starts.push_back(q + weakest.near * svd.matrixV().col(last));
-    starts.push_back(q + weakest.far * svd.matrixV().col(last));
-  }
-  if (!(reach < kFarthest)) return {};
-  std::vector<VectorX> solutions;
-  for (VectorX& start : starts) {
-    if (refine(residual, q, 2.0 * reach, start)) solutions.push_back(start);
-  }
-  std::stable_sort(solutions.begin(), solutions.end(),
-                   [&q](const VectorX& a, const VectorX& b) { return (a - q).norm() < (b - q).norm(); });
-  return solutions;
+  about.is_one = itself || about.solutions.empty();
+  return about;
 }
 
 }  // namespace screwline

@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_SRC_IK_MATE_H
 #define SCREWLINE_SRC_IK_MATE_H
 
+#include <functional>
 #include <vector>
 
 #include "screwline/ik/task_error.h"
@@ -8,12 +9,20 @@
 
 namespace screwline {
 
-/// All solutions about an almost singular one, nearest first; q need not be one itself, where rounding at a double root
-/// put it between two. Along the direction n that the task Jacobian maps to almost nothing, sigma u, the residual is
-/// r - sigma t - kappa t^2 / 2 along u: from its two roots Newton's method goes on. Where two singular values are
-/// almost nothing, it starts from a circle about q. Empty where q is regular or nothing is near. As many joints as
-/// rows. Allocates.
-std::vector<VectorX> solutionsAbout(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q);
+/// Whether a solution within `distance` (norm) of `place` is at hand.
+using IsAtHand = std::function<bool(const VectorX& place, double distance)>;
+
+/// Solutions about an almost singular one.
+struct SolutionsAbout {
+  bool is_one = true;              ///< q is a solution itself; false: rounding put it between those that are.
+  std::vector<VectorX> solutions;  ///< Others, nearest first, but those that are at hand.
+};
+
+/// Along the one or two directions that the task Jacobian maps to almost nothing, the residual is a quadratic in one or
+/// two unknowns (Lyapunov and Schmidt's reduction, to the second order): from each of its up to four roots Newton's
+/// method goes on. Nothing where q is regular. As many joints as rows. Allocates.
+SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q,
+                              const IsAtHand& at_hand);
 
 }  // namespace screwline
 

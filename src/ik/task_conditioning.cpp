@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "screwline/kinematics/singularity.h"
+#include "screwline/spatial/small_svd.h"
 
 namespace screwline {
 namespace {
@@ -19,7 +20,7 @@ constexpr int kMaxSteps = 30;
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 TaskConditioning bySingularValues(const MatrixX& J, double noise) {
-  const VectorX sigma = singularValues(J);
+  const VectorX sigma = J.rows() == J.cols() ? VectorX(SmallSvd(J).sigma) : singularValues(J);
   TaskConditioning result;
   result.smallest = std::max({sigma.minCoeff(), kRankTolerance * sigma.maxCoeff(), 1e-12});
   result.manipulability = sigma.prod();

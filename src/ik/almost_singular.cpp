@@ -1,0 +1,49 @@
+#include "almost_singular.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "mate.h"
+
+namespace screwline {
+namespace {
+
+bool isIsolated(const IkAnswer& answer) {
+  return answer.self_motion.rows() == 0;
+}
+
+}  // namespace
+
+void completeAlmostSingular(const SerialChain& chain, const Task& task, const Pose& target, double bound,
+                            const SolutionBuilder& builder, std::vector<IkAnswer>& answers) {
+  std::vector<IkAnswer> mates;
+  std::vector<bool> between(answers.size(), false);
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (!isIsolated(answers[i]) || !(answers[i].manipulability <= bound)) continue;
+    const auto isAt = [&](const IkAnswer& answer, const VectorX& place, double distance) {
+      return isIsolated(answer) && largestDifference(chain, answer.position, place) <= distance;
+    };
+    const auto isAtHand = [&](const VectorX& place, double distance) {
+      for (std::size_t k = 0; k < answers.size(); ++k) {
+        if (k != i && !between[k] && isAt(answers[k], place, distance)) return true;
+      }
+      return std::any_of(mates.begin(), mates.end(), [&](const IkAnswer& mate) { return isAt(mate, place, distance); });
+    };
+    const SolutionsAbout about = solutionsAbout(chain, task, target, answers[i].position, isAtHand);
+    for (const VectorX& q : about.solutions) {
+      Candidate candidate = unnamed(q);
+      candidate.branch = answers[i].branch;
+      std::optional<IkAnswer> mate = builder.build(std::move(candidate));
+      if (mate && !isAtHand(mate->position, kSameSolution)) mates.push_back(std::move(*mate));
+    }
+    between[i] = !about.is_one;
+  }
+  std::vector<IkAnswer> all;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (!between[i]) all.push_back(std::move(answers[i]));
+  }
+  std::move(mates.begin(), mates.end(), std::back_inserter(all));
+  answers = std::move(all);
+}
+
+}  // namespace screwline
