@@ -23,7 +23,7 @@ constexpr double kFarthest = 0.05;       // [rad, m]
 constexpr double kExact = 1e-13;         // [m, rad]
 constexpr double kRounding = 4e-16;      // [m, rad] Residuals that steps would not lessen.
 constexpr int kMaxSteps = 20;
-constexpr double kOnTarget = 1e-15;   // Of 1 and the chain's length: a residual that is rounding.
+constexpr double kOnTarget = 6e-16;   // Of 1 and the chain's length: a residual that is rounding.
 constexpr double kRecognised = 0.25;  // Of the way to the next root: what is nearer is this one.
 
 using Plane = Eigen::Vector2d;
