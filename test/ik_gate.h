@@ -239,9 +239,7 @@ class IkGate {
     const double apart = jointDifference(chain_, mate, q_);
     if (!(residual(mate).norm() < 1e-13 && apart > 4e-6 && apart < 0.2)) return false;
     if (!ignore_limits_ && chain_.clamped(mate) != mate) return false;
-    const double place = placeTolerance(chain_, ik_.task(), mate);
-    if (place > apart) return false;  // Where two singularities meet: rounding decides where the mate lies.
-    const double tolerance = std::min(place, 0.4 * apart);
+    const double tolerance = std::min(placeTolerance(chain_, ik_.task(), mate), 0.4 * apart);
     if (isKnown(mate, result, tolerance)) return false;
     note("the mate " + std::to_string(apart) + " away is not known: " + result.message);
     return result.complete;

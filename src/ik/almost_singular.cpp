@@ -14,8 +14,9 @@ bool isIsolated(const IkAnswer& answer) {
 
 }  // namespace
 
-void completeAlmostSingular(const SerialChain& chain, const Task& task, const Pose& target, double bound,
+bool completeAlmostSingular(const SerialChain& chain, const Task& task, const Pose& target, double bound,
                             const SolutionBuilder& builder, std::vector<IkAnswer>& answers) {
+  bool told = true;
   std::vector<IkAnswer> mates;
   std::vector<bool> between(answers.size(), false);
   for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -37,6 +38,7 @@ void completeAlmostSingular(const SerialChain& chain, const Task& task, const Po
       if (mate && !isAtHand(mate->position, kSameSolution)) mates.push_back(std::move(*mate));
     }
     between[i] = !about.is_one;
+    told = told && about.is_told;
   }
   std::vector<IkAnswer> all;
   for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -44,6 +46,7 @@ void completeAlmostSingular(const SerialChain& chain, const Task& task, const Po
   }
   std::move(mates.begin(), mates.end(), std::back_inserter(all));
   answers = std::move(all);
+  return told;
 }
 
 }  // namespace screwline

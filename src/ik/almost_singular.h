@@ -8,8 +8,9 @@
 namespace screwline {
 
 /// Puts right what rounding does to isolated solutions of manipulability up to `bound`: those that they are about to
-/// meet are added where they are missing, those that stand between two are taken away. As many joints as rows.
-void completeAlmostSingular(const SerialChain& chain, const Task& task, const Pose& target, double bound,
+/// meet are added where they are missing, those that stand between two are taken away. False where the pose does not
+/// tell one of them from a curve of configurations. As many joints as rows.
+bool completeAlmostSingular(const SerialChain& chain, const Task& task, const Pose& target, double bound,
                             const SolutionBuilder& builder, std::vector<IkAnswer>& answers);
 
 }  // namespace screwline

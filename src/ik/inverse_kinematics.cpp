@@ -81,7 +81,7 @@ struct InverseKinematics::Implementation {
   void doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
   void conclude(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
-  std::string doubt() const;
+  std::string doubt(bool indistinct) const;
 
   SerialChain chain;
   Task task;
@@ -163,7 +163,9 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vect
     answers.push_back(std::move(*answer));
   }
   if ((plan || completed || algebraic) && chain.size() == task.size()) {
-    completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers);
+    const bool told = completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers);
+    result.indistinct = !told;
+    all = all && told;
   }
   for (IkAnswer& answer : answers) admit(request, std::move(answer), builder, result);
   return all;
@@ -249,7 +251,8 @@ void InverseKinematics::Implementation::admitSeed(const SolutionBuilder& builder
 }
 
 /// Why a list that is not complete is not.
-std::string InverseKinematics::Implementation::doubt() const {
+std::string InverseKinematics::Implementation::doubt(bool indistinct) const {
+  if (indistinct) return "rounding hides how a solution differs from others along a curve";
   if (plan) return "a continuum was met whose members had to be searched";
   if (algebraic || parallel || completed) return "the pose is at or near a continuum or a multiple solution";
   return redundant ? "self-motions were found by numerical search or meet" : "found by numerical search";
@@ -365,7 +368,7 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
     result.status = existed || other_branch ? IkStatus::kOutsideLimits
                                             : (result.complete ? IkStatus::kUnreachable : IkStatus::kNotFound);
   }
-  result.message = accountOf(request, result, self.doubt());
+  result.message = accountOf(request, result, self.doubt(result.indistinct));
   return result;
 }
 

@@ -23,7 +23,9 @@ constexpr double kFarthest = 0.05;       // [rad, m]
 constexpr double kExact = 1e-13;         // [m, rad]
 constexpr double kRounding = 4e-16;      // [m, rad] Residuals that steps would not lessen.
 constexpr int kMaxSteps = 20;
-constexpr double kOnTarget = 6e-16;   // Of 1 and the chain's length: a residual that is rounding.
+constexpr double kNoise = 1e-15;      // Of 1 and the chain's length: residuals of rounding.
+constexpr double kFarAlong = 0.05;    // [rad, m] What is told from others at all is told from those so far away.
+constexpr double kMisplaced = 1e-4;   // [rad, m] No rounding moves a root of a residual that is bent so far.
 constexpr double kRecognised = 0.25;  // Of the way to the next root: what is nearer is this one.
 
 using Plane = Eigen::Vector2d;
@@ -43,7 +45,6 @@ std::vector<Plane> rootsOfOne(const Reduced& reduced) {
   const double discriminant = sigma * sigma + 2.0 * kappa * r;
   if (!(discriminant > 0.0)) return {};
   const double sum = sigma + std::sqrt(discriminant);
-  if (r == 0.0) return {{0.0, -sum / kappa}};
   return {{0.0, 2.0 * r / sum}, {0.0, -sum / kappa}};
 }
 
@@ -87,10 +88,8 @@ std::vector<Plane> rootsOfTwo(const Reduced& reduced) {
   const std::array<double, 2> ab = combination(f.a, g.b, -g.a, f.b);
   const std::array<double, 4> bk = combination(1.0, product(f.b, g.k), -1.0, product(g.b, f.k));
   const std::array<double, 5> resultant = combination(1.0, product(ak, ak), -1.0, product(ab, bk));
-  // Where zero is a root, the other three are looked for.
-  const int known = reduced.r.isZero(0.0) ? 1 : 0;
   std::vector<Plane> roots;
-  for (const RealRoot& root : solvePolynomial(resultant.data() + known, 4 - known, 0.0)) {
+  for (const RealRoot& root : solvePolynomial(resultant.data(), 4, 0.0)) {
     const double x = root.value;
     const double y = -(ak[0] + x * (ak[1] + x * ak[2])) / (ab[0] + x * ab[1]);
     if (std::isfinite(y)) roots.push_back(turn * Plane(x, y));
@@ -145,6 +144,34 @@ Reduced reducedAt(TaskResidual& residual, const TaskPoint& here, const SmallSvd&
   return reduced;
 }
 
+double noiseOf(const TaskResidual& residual) {
+  return kNoise * (1.0 + residual.chain().characteristicLength());
+}
+
+/// Whether the pose is met to rounding between two solutions too: it does not tell them apart.
+bool areOne(TaskResidual& residual, const JointVector& a, const JointVector& b) {
+  TaskPoint middle;
+  middle.q = 0.5 * (a + b);
+  residual.evaluate(middle);
+  return middle.residual.norm() <= noiseOf(residual);
+}
+
+/// Whether the pose is met to rounding a good way along the weakest direction too: what the others can make up for is
+/// taken away.
+bool isFlat(TaskResidual& residual, const TaskPoint& here, const SmallSvd& svd) {
+  const Eigen::Index strong = here.q.size() - 1;
+  TaskPoint point;
+  point.q = here.q + kFarAlong * svd.V.col(strong);
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kMaxSteps; ++k) {
+    residual.evaluate(point);
+    least = std::min(least, point.residual.norm());
+    const SmallVector along = svd.U.leftCols(strong).transpose() * point.residual;
+    point.q += svd.V.leftCols(strong) * along.cwiseQuotient(svd.sigma.head(strong));
+  }
+  return least <= noiseOf(residual);
+}
+
 /// How near to a root a solution has to be to be this one: nearer than to the other roots, and than q is.
 double recognisedWithin(const std::vector<Plane>& roots, const Plane& root) {
   double nearest = root.norm();
@@ -167,13 +194,15 @@ SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const 
   SolutionsAbout about;
   if (svd.sigma[last] > kNearSingular * svd.sigma[0]) return about;
   const Eigen::Index unknowns = last > 0 && svd.sigma[last - 1] < kTwiceSingular * svd.sigma[0] ? 2 : 1;
-  Reduced reduced = reducedAt(residual, here, svd, unknowns);
-  if (svd.sigma[last] < kOnContinuum && std::abs(reduced.K[1](1, 1)) < kStraight) return about;
-  const bool on_target = here.residual.norm() <= kOnTarget * (1.0 + chain.characteristicLength());
-  if (on_target) reduced.r.setZero();
-  bool itself = on_target;
+  const Reduced reduced = reducedAt(residual, here, svd, unknowns);
+  if (svd.sigma[last] < kOnContinuum && std::abs(reduced.K[1](1, 1)) < kStraight) {
+    about.is_told = !isFlat(residual, here, svd);
+    return about;
+  }
   std::vector<Plane> roots = unknowns == 1 ? rootsOfOne(reduced) : rootsOfTwo(reduced);
   std::sort(roots.begin(), roots.end(), [](const Plane& a, const Plane& b) { return a.norm() < b.norm(); });
+  bool itself = !roots.empty() && roots.front().norm() <= kSameSolution;
+  if (itself) roots.erase(roots.begin());
   for (const Plane& root : roots) {
     if (!(root.norm() < kFarthest)) break;
     TaskPoint point;
@@ -182,13 +211,13 @@ SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const 
     // Where q may be none itself, the root next to it decides; the others need not be found again.
     if (itself && at_hand(point.q, recognisedWithin(roots, root))) continue;
     if (!refine(residual, here.q, 2.0 * root.norm(), point)) continue;
-    if (isSameConfiguration(chain, point.q, q)) {
+    if (isSameConfiguration(chain, point.q, q) || areOne(residual, here.q, point.q)) {
       itself = true;
     } else {
       about.solutions.push_back(point.q);
     }
   }
-  about.is_one = itself || about.solutions.empty();
+  about.is_one = itself || about.solutions.empty() || (about.solutions.front() - q).norm() > kMisplaced;
   return about;
 }
 

@@ -15,6 +15,7 @@ using IsAtHand = std::function<bool(const VectorX& place, double distance)>;
 /// Solutions about an almost singular one.
 struct SolutionsAbout {
   bool is_one = true;              ///< q is a solution itself; false: rounding put it between those that are.
+  bool is_told = true;             ///< False: by less than rounding from configurations all along a curve.
   std::vector<VectorX> solutions;  ///< Others, nearest first, but those that are at hand.
 };
 

@@ -59,7 +59,8 @@ struct IkResult {
   int outside_limits = 0;           ///< Solutions that exist but break limits.
   int left_out = 0;                 ///< Solutions beyond max_solutions: the list is cut, and not complete.
   bool timed_out = false;
-  IkAnswer closest;                    ///< Best reachable configuration where there is no solution, if asked for.
+  bool indistinct = false;  ///< Rounding hides how many solutions there are: one is the same pose as all along a curve.
+  IkAnswer closest;         ///< Best reachable configuration where there is no solution, if asked for.
   double distance_to_reachable = 0.0;  ///< sqrt(position_error^2 + (rotation_weight orientation_error)^2) of `closest`.
   std::string message;                 ///< One line, for people.
 };

@@ -1,5 +1,6 @@
 #include "screwline/ik/closed_form/orientation_problem.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "screwline/ik/closed_form/roots.h"
@@ -9,8 +10,10 @@
 namespace screwline {
 namespace {
 
-/// Sine below which axis 3 counts as in line with axis 1: rounding, which an arm near its own singularities enlarges.
+/// Sine below which axis 3 counts as in line with axis 1: rounding,
 constexpr double kInLine = 1e-13;
+/// and what an arm near its own singularities may make of it.
+constexpr double kMostInLine = 1e-11;
 
 /// Cosine below which neighbours count as at right angles: what rounding leaves of it.
 constexpr double kAcross = 1e-15;
@@ -80,11 +83,13 @@ OrientationProblem::Middle OrientationProblem::middleOf(double cosine, double si
   return middle;
 }
 
-OrientationTurns OrientationProblem::turnsInFrames(const Matrix3& M, double preferred, TurnBatch& batch) const {
+OrientationTurns OrientationProblem::turnsInFrames(const Matrix3& M, double error, double preferred,
+                                                   TurnBatch& batch) const {
   OrientationTurns turns;
+  const double in_line = kInLine + std::min(error, kMostInLine);
   turns.place = batch.count();
   const double sine = std::sqrt(M(0, 2) * M(0, 2) + M(1, 2) * M(1, 2));
-  if (across_ && sine > kInLine) {
+  if (across_ && sine > in_line) {
     addAcross(M, sine, batch);
     turns.count = 2;
     turns.half_turned = true;
@@ -92,7 +97,7 @@ OrientationTurns OrientationProblem::turnsInFrames(const Matrix3& M, double pref
   }
   const Middle middle = middleOf(M(2, 2), sine);
   if (!middle.reached) return turns;
-  turns.free = sine <= kInLine;
+  turns.free = sine <= in_line;
   turns.is_double = turns.free || middle.is_double;
   turns.count = turns.is_double ? 1 : 2;
   for (int i = 0; i < turns.count; ++i) {

@@ -6,6 +6,11 @@
 #include "screwline/spatial/rotation.h"
 
 namespace screwline {
+namespace {
+
+constexpr double kAlmostInLine = 1.0 - 1e-13;  // A cosine: closer than 5e-7 rad.
+
+}  // namespace
 
 void ClosedFormPlan::solve(const Pose& target, const double* preferred, PlanSolutions& solutions) const {
   solutions.count = 0;
@@ -94,15 +99,25 @@ void ClosedFormPlan::solveSpherical(const Pose& target, const double* preferred,
       is_wrist ? target * start_in_tip_ : Vector3(home_.R * (target.R.transpose() * (start_ - target.p)) + home_.p);
   PositionSolutions arms;
   position_->solveInTurns(start_, goal, wishedOf(preferred), arms);
+  const Matrix3 M = before_ * (is_wrist ? target.R : Matrix3(target.R.transpose())) * after_;
+  std::array<Matrix3, 4> rest;
+  std::array<double, 4> error{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(arms.count); ++i) {
+    PositionSolution& arm = arms.solutions[i];
+    rest[i] = M;
+    others_.undo(arm.turn, rest[i]);
+    if (std::abs(rest[i](2, 2)) > kAlmostInLine) {  // Whether axes 1 and 3 are in line is for every digit to say.
+      error[i] = position_->refine(start_, goal, arm);
+      rest[i] = M;
+      others_.undo(arm.turn, rest[i]);
+    }
+    if (!is_wrist) rest[i].transposeInPlace();
+  }
   TurnBatch batch;  // Of all arms and wrists.
   position_->addTurns(arms, batch);
-  const Matrix3 M = before_ * (is_wrist ? target.R : Matrix3(target.R.transpose())) * after_;
   std::array<OrientationTurns, 4> wrists;
   for (std::size_t i = 0; i < static_cast<std::size_t>(arms.count); ++i) {
-    Matrix3 rest = M;
-    others_.undo(arms.solutions[i].turn, rest);
-    if (!is_wrist) rest.transposeInPlace();
-    wrists[i] = orientation_->turnsInFrames(rest, preferred[spherical_first_], batch);
+    wrists[i] = orientation_->turnsInFrames(rest[i], error[i], preferred[spherical_first_], batch);
   }
   batch.takeAngles();
   position_->takeFrom(batch, arms);

@@ -1,5 +1,6 @@
 #include "screwline/ik/closed_form/position_problem.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +10,9 @@
 
 namespace screwline {
 namespace {
+
+constexpr double kMostRefined = 1e-8;  // [rad, m] A longer step is no refinement.
+constexpr double kRounding = 1e-15;    // Of the chain's length.
 
 /// Moves the points of axes 1 and 2 to their common normal, and fills the frame across axis 2.
 void alignTurns(PositionGeometry& g, const AxisRelation& relation) {
@@ -117,6 +121,37 @@ void PositionProblem::takeFrom(const TurnBatch& batch, PositionSolutions& soluti
       if (isAngle(solution, axis)) solution.q[axis] = batch[place++];
     }
   }
+}
+
+double PositionProblem::refine(const Vector3& start, const Vector3& goal, PositionSolution& solution) const {
+  if (solution.free[0] || solution.free[1] || solution.free[2]) return 0.0;
+  Matrix3 J;
+  Vector3 p = start;
+  for (std::size_t i = 3; i-- > 0;) {
+    const Axis& axis = axisOf(i);
+    const Turn& turn = solution.turn[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    if (axis.prismatic) {
+      p += solution.q[i] * axis.direction;
+      J.col(column) = axis.direction;
+    } else {
+      p = axis.point + turned(axis.direction, turn, p - axis.point);
+      J.col(column) = axis.direction.cross(p - axis.point);
+      for (Eigen::Index k = column + 1; k < 3; ++k) J.col(k) = turned(axis.direction, turn, J.col(k));
+    }
+  }
+  const Matrix3 inverse = J.inverse();
+  const Vector3 step = inverse * (goal - p);
+  if (!(step.norm() <= kMostRefined)) return 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double moved = step[static_cast<Eigen::Index>(i)];
+    if (axisOf(i).prismatic) {
+      solution.q[i] += moved;
+    } else {
+      solution.turn[i] = normalized(solution.turn[i] * Turn{1.0, moved});
+    }
+  }
+  return kRounding * geometry_.length * inverse.norm();
 }
 
 void PositionProblem::solve(const Vector3& start, const Vector3& goal, const std::array<double, 3>& preferred,

@@ -45,14 +45,15 @@ class OrientationProblem {
   /// @param preferred value of q1 where it turns out free.
   void solve(const Matrix3& Q, double preferred, OrientationSolutions& solutions) const {
     TurnBatch batch;
-    const OrientationTurns turns = turnsInFrames(near_.transpose() * Q * far_, preferred, batch);
+    const OrientationTurns turns = turnsInFrames(near_.transpose() * Q * far_, 0.0, preferred, batch);
     batch.takeAngles();
     takeFrom(batch, turns, preferred, solutions);
   }
 
   /// The turns of all solutions for M = N^T Q F, added to the batch (6 at most); takeFrom() makes solutions of them
-  /// once the batch has taken its angles.
-  OrientationTurns turnsInFrames(const Matrix3& M, double preferred, TurnBatch& batch) const;
+  /// once the batch has taken its angles. `error` [rad] of M beyond rounding: axes that it may have put out of line are
+  /// in line.
+  OrientationTurns turnsInFrames(const Matrix3& M, double error, double preferred, TurnBatch& batch) const;
   static void takeFrom(const TurnBatch& batch, const OrientationTurns& turns, double preferred,
                        OrientationSolutions& solutions);
 

@@ -83,6 +83,9 @@ class PositionProblem {
   /// angles of addTurns().
   void solveInTurns(const Vector3& start, const Vector3& goal, const std::array<double, 3>& preferred,
                     PositionSolutions& solutions) const;
+  /// One step of Newton's method on a solution without free axes, not on its `q` of turns; nothing where the three axes
+  /// are singular. Returns what rounding leaves [rad, m].
+  double refine(const Vector3& start, const Vector3& goal, PositionSolution& solution) const;
   /// At most 12. @pre the batch is empty.
   void addTurns(const PositionSolutions& solutions, TurnBatch& batch) const;
   void takeFrom(const TurnBatch& batch, PositionSolutions& solutions) const;
@@ -93,8 +96,10 @@ class PositionProblem {
  private:
   /// Whether q is the angle of the turn: a free axis keeps the preferred value, not that value modulo a full turn.
   bool isAngle(const PositionSolution& solution, std::size_t axis) const {
-    return !geometry_.axes[geometry_.reversed ? 2 - axis : axis].prismatic && !solution.free[axis];
+    return !axisOf(axis).prismatic && !solution.free[axis];
   }
+  /// As it stands in the chain.
+  const Axis& axisOf(std::size_t axis) const { return geometry_.axes[geometry_.reversed ? 2 - axis : axis]; }
 
   PositionGeometry geometry_;
 };
