@@ -4,6 +4,7 @@
 //     coverage [POSES] [ROBOT...]
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace {
 constexpr unsigned kSeed = 20261127;
 constexpr double kSame = 1e-6;         // [rad, m]
 constexpr double kWrong = 1e-9;        // [m, rad] of forward kinematics.
-constexpr int kRedundantShare = 1000;  // So many times fewer poses where a pose has a curve of solutions.
+constexpr int kRedundantShare = 1000;  // So many times fewer poses where a pose has curves, not points, of solutions.
 
 struct Count {
   int poses = 0;
@@ -30,10 +31,12 @@ struct Count {
   double worst_error = 0.0;
 };
 
-void examine(const InverseKinematics& ik, const VectorX& q, Count& count) {
+/// `given`: of a redundant chain, the joint whose value is given; -1: none.
+void examine(const InverseKinematics& ik, const VectorX& q, int given, Count& count) {
   const SerialChain& chain = ik.chain();
   const test::IkGate gate(ik, q, true);
-  const IkRequest request = gate.request();
+  IkRequest request = gate.request();
+  if (given >= 0) request.redundancy = {q[given]};
   const IkResult result = ik.solve(request);
   ++count.poses;
   count.solutions += static_cast<long>(result.solutions.size());
@@ -57,9 +60,12 @@ void run(const std::string& name, int poses) {
   const InverseKinematics ik(robot.chain, robot.task);
   test::SingularPoses maker(robot.chain, kSeed);
   Count count;
-  if (robot.chain.size() > robot.task.size()) poses = std::max(1, poses / kRedundantShare);
-  for (int k = 0; k < poses; ++k) examine(ik, maker.regular(), count);
-  std::printf("| %s | %d | %d | %d | %d | %d | %d | %.2f | %.1e |\n", name.c_str(), count.poses, count.lost,
+  const std::optional<InverseOutline> outline = ik.outline();
+  const int given = outline ? outline->given : -1;
+  if (robot.chain.size() > robot.task.size() && given < 0) poses = std::max(1, poses / kRedundantShare);
+  for (int k = 0; k < poses; ++k) examine(ik, maker.regular(), given, count);
+  const std::string label = given < 0 ? name : name + ", " + robot.chain.joint(given).name + " given";
+  std::printf("| %s | %d | %d | %d | %d | %d | %d | %.2f | %.1e |\n", label.c_str(), count.poses, count.lost,
               count.lost_as_complete, count.repeated, count.wrong, count.incomplete,
               static_cast<double>(count.solutions) / count.poses, count.worst_error);
   std::fflush(stdout);
