@@ -118,29 +118,27 @@ bool refine(TaskResidual& residual, const JointVector& q, double reach, TaskPoin
   return least <= kExact && (best - q).norm() <= reach;
 }
 
+/// By differences of the Jacobian, which lose fewer digits than those of the residual.
 /// @pre unknowns is 1 or 2; with 1 the reduced quantities of the first are left zero.
 Reduced reducedAt(TaskResidual& residual, const TaskPoint& here, const SmallSvd& svd, Eigen::Index unknowns) {
-  const Eigen::Index last = here.q.size() - 1;
-  const auto bendAlong = [&](const JointVector& way) -> TaskVector {
-    TaskPoint ahead;
-    ahead.q = here.q + kProbe * way;
-    residual.evaluate(ahead);
-    return (2.0 / (kProbe * kProbe)) * (here.residual - ahead.residual - kProbe * (here.J * way));
-  };
+  const Eigen::Index first = here.q.size() - unknowns;  // Of the weak directions.
+  const auto weak = svd.V.rightCols(unknowns);
   Reduced reduced{Plane::Zero(), Plane::Zero(), {Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()}};
-  const TaskVector weakest = bendAlong(svd.V.col(last));
-  const TaskVector weak = unknowns == 2 ? bendAlong(svd.V.col(last - 1)) : weakest;
-  const TaskVector both = unknowns == 2 ? bendAlong(svd.V.col(last - 1) + svd.V.col(last)) : weakest;
-  for (Eigen::Index i = 2 - unknowns; i < 2; ++i) {
-    const auto u = svd.U.col(last - 1 + i);
-    reduced.r[i] = u.dot(here.residual);
-    reduced.s[i] = svd.sigma[last - 1 + i];
-    Eigen::Matrix2d& K = reduced.K[static_cast<std::size_t>(i)];
-    K(1, 1) = u.dot(weakest);
-    if (unknowns == 1) continue;
-    K(0, 0) = u.dot(weak);
-    K(0, 1) = K(1, 0) = 0.5 * (u.dot(both) - K(0, 0) - K(1, 1));
+  for (Eigen::Index k = 0; k < unknowns; ++k) {
+    TaskPoint ahead;
+    ahead.q = here.q + kProbe * weak.col(k);
+    residual.evaluate(ahead);
+    const SmallMatrix bend = svd.U.rightCols(unknowns).transpose() * SmallMatrix((ahead.J - here.J) / kProbe) * weak;
+    for (Eigen::Index i = 0; i < unknowns; ++i) {
+      Eigen::Matrix2d& K = reduced.K[static_cast<std::size_t>(2 - unknowns + i)];
+      K.row(2 - unknowns + k).tail(unknowns) = bend.row(i);
+    }
   }
+  for (Eigen::Index i = 0; i < unknowns; ++i) {
+    reduced.r[2 - unknowns + i] = svd.U.col(first + i).dot(here.residual);
+    reduced.s[2 - unknowns + i] = svd.sigma[first + i];
+  }
+  for (Eigen::Matrix2d& K : reduced.K) K = (0.5 * (K + K.transpose())).eval();
   return reduced;
 }
 
@@ -165,7 +163,9 @@ bool isFlat(TaskResidual& residual, const TaskPoint& here, const SmallSvd& svd) 
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMaxSteps; ++k) {
     residual.evaluate(point);
-    least = std::min(least, point.residual.norm());
+    const double size = point.residual.norm();
+    if (!(size < 0.5 * least)) break;
+    least = size;
     const SmallVector along = svd.U.leftCols(strong).transpose() * point.residual;
     point.q += svd.V.leftCols(strong) * along.cwiseQuotient(svd.sigma.head(strong));
   }
@@ -201,8 +201,9 @@ SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const 
   }
   std::vector<Plane> roots = unknowns == 1 ? rootsOfOne(reduced) : rootsOfTwo(reduced);
   std::sort(roots.begin(), roots.end(), [](const Plane& a, const Plane& b) { return a.norm() < b.norm(); });
-  bool itself = !roots.empty() && roots.front().norm() <= kSameSolution;
-  if (itself) roots.erase(roots.begin());
+  const auto others = std::find_if(roots.begin(), roots.end(), [](const Plane& t) { return t.norm() > kSameSolution; });
+  bool itself = others != roots.begin();
+  roots.erase(roots.begin(), others);
   for (const Plane& root : roots) {
     if (!(root.norm() < kFarthest)) break;
     TaskPoint point;

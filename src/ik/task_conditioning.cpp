@@ -17,8 +17,6 @@ constexpr double kClearShare = 1e-6;
 constexpr double kConverged = 1e-14;  ///< Of the eigenvalue.
 constexpr int kMaxSteps = 30;
 
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-
 TaskConditioning bySingularValues(const MatrixX& J, double noise) {
   const VectorX sigma = J.rows() == J.cols() ? VectorX(SmallSvd(J).sigma) : singularValues(J);
   TaskConditioning result;
