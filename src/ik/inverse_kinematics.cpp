@@ -79,7 +79,7 @@ struct InverseKinematics::Implementation {
   void admit(const IkRequest& request, IkAnswer solution, const SolutionBuilder& builder, IkResult& result) const;
   void dropRepeated(const IkRequest& request, IkResult& result) const;
   void doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
-  void admitSeed(const SolutionBuilder& builder, IkResult& result) const;
+  void admitSeed(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   void conclude(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
   std::string doubt(bool indistinct) const;
 
@@ -226,10 +226,18 @@ void InverseKinematics::Implementation::doubtUnreachable(const IkRequest& reques
   }
 }
 
-/// A seed that solves the pose is the answer nearest to itself: where rounding at a double root moved it, it is put
-/// back.
-void InverseKinematics::Implementation::admitSeed(const SolutionBuilder& builder, IkResult& result) const {
-  if (result.solutions.empty() || !builder.seedSolves()) return;
+/// A seed that solves the pose is the answer nearest to itself: where rounding at a double root moved it, also out of
+/// the limits, it is put back.
+void InverseKinematics::Implementation::admitSeed(const IkRequest& request, const SolutionBuilder& builder,
+                                                  IkResult& result) const {
+  if (!builder.seedSolves()) return;
+  if (result.solutions.empty()) {
+    if (std::optional<IkAnswer> seed = builder.build(unnamed(builder.seed()))) {
+      if (chain.size() > task.size()) describeRedundancy(chain, task, *seed);
+      admit(request, std::move(*seed), builder, result);
+    }
+    return;
+  }
   IkAnswer& nearest = *std::min_element(result.solutions.begin(), result.solutions.end(), isNearer);
   if (nearest.distance <= 1e-12) return;
   IkAnswer seed = nearest;
@@ -355,11 +363,9 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
     any = !answers.empty();
   }
   // No curve can be followed from what is singular: a search may still meet its solutions.
-  const bool found_curves = any || result.outside_limits > 0;
-  if (!self.redundant || (!found_curves && !self.redundant->closedForm())) {
-    any = self.gather(request, builder, result);
-  }
-  self.admitSeed(builder, result);
+  const bool curves_say_nothing = result.solutions.empty() && !result.complete && request.redundancy.empty();
+  if (!self.redundant || curves_say_nothing) any = self.gather(request, builder, result) || any;
+  self.admitSeed(request, builder, result);
   if (result.complete && !any && result.solutions.empty()) self.doubtUnreachable(request, builder, result);
   const bool existed = result.outside_limits > 0 || !result.solutions.empty();
   self.conclude(request, builder, result);

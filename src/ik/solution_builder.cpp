@@ -13,6 +13,7 @@ namespace screwline {
 namespace {
 
 constexpr double kGoodEnough = 1e-13;  // [m, rad] errors that Newton steps would not lessen.
+constexpr double kRounding = 2.2e-16;  // Of 1 and the chain's length: no residual is known better.
 constexpr double kLeastBand = 1e-9;    // Limits are decided no finer than this, and no coarser than kMostBand.
 constexpr double kMostBand = 1e-6;
 
@@ -90,7 +91,9 @@ double SolutionBuilder::verify(IkAnswer& solution) const {
 /// @pre jacobian_ is the solution's.
 void SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
   const TaskConditioning conditioning = conditioningOf(task_.select(jacobian_, orientation_), jacobianNoise(jacobian_));
-  solution.joint_error = std::hypot(solution.position_error, solution.orientation_error) / conditioning.smallest;
+  const double rounding = kRounding * (1.0 + chain_.characteristicLength());  // A residual of zero is luck.
+  solution.joint_error =
+      std::hypot(solution.position_error, solution.orientation_error, rounding) / conditioning.smallest;
   solution.manipulability = conditioning.manipulability;
   solution.singular =
       merged || solution.self_motion.rows() > std::max(0, chain_.size() - task_.size()) || !conditioning.full_rank;
