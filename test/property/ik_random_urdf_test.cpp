@@ -11,6 +11,7 @@
 #include <kdl/tree.hpp>
 #include <kdl_parser/kdl_parser.hpp>
 #include <map>
+#include <vector>
 
 #include "ik_gate.h"
 #include "random_urdf.h"
@@ -144,7 +145,9 @@ TEST(RandomUrdfLaw, EveryDocumentIsReadDescribedAndSolved) {
   std::map<std::string, Tally> tallies;
   int not_found = 0;
   double worst = 0.0;
-  for (unsigned seed = first; seed < first + count; ++seed) {
+  std::vector<unsigned> seeds = {500178, 600521};  // Where curves told nothing within limits, not even the seed.
+  for (unsigned seed = first; seed < first + count; ++seed) seeds.push_back(seed);
+  for (const unsigned seed : seeds) {
     RandomUrdf robot(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ", " + robot.style());
     RandomModel& random = robot.random();
