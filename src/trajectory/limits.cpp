@@ -9,6 +9,9 @@
 namespace screwline {
 namespace {
 
+constexpr char kLower[] = "lower_position_limits";
+constexpr char kUpper[] = "upper_position_limits";
+
 const char* orderName(int order) {
   constexpr const char* kNames[] = {"position", "velocity", "acceleration", "jerk"};
   return kNames[order];
@@ -20,18 +23,44 @@ void requireSize(const VectorX& values, int joints, const std::string& field) {
                                                  " values, the robot has " + std::to_string(joints) + " joints");
 }
 
-void validatePositive(const VectorX& values, int joints, const std::string& field) {
+std::string limitRange() {
+  return number(kLeastLimit) + " to " + number(kGreatestLimit) + ", or infinite";
+}
+
+void validateOrder(const VectorX& values, int joints, const std::string& field) {
   requireSize(values, joints, field);
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    if (values[i] > 0.0) continue;
+    if (std::isinf(values[i]) && values[i] > 0.0) continue;
+    if (values[i] >= kLeastLimit && values[i] <= kGreatestLimit) continue;
     throw InputError(AnswerCode::kInvalidGoal, indexed(field, static_cast<std::size_t>(i)) + " is " +
-                                                   number(values[i]) + ", it must be positive");
+                                                   number(values[i]) + ", it must be positive: " + limitRange());
+  }
+}
+
+void validateBound(const VectorX& values, double unreachable, const std::string& field) {
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (!std::isnan(values[i]) && values[i] != unreachable) continue;
+    throw InputError(AnswerCode::kInvalidGoal, indexed(field, static_cast<std::size_t>(i)) + " is " +
+                                                   number(values[i]) + ", it must be a number or " +
+                                                   number(-unreachable) + " (none)");
   }
 }
 
 void requireFactor(double factor, const std::string& field) {
   if (factor > 0.0 && factor <= 1.0) return;
   throw InputError(AnswerCode::kInvalidGoal, field + " is " + number(factor) + ", it must lie in (0, 1]");
+}
+
+VectorX scaledOrder(const VectorX& values, double factor, const std::string& order) {
+  const std::string scaling = order + "_scaling";
+  requireFactor(factor, scaling);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (values[i] * factor >= kLeastLimit) continue;
+    throw InputError(AnswerCode::kInvalidGoal, scaling + " is " + number(factor) + ", it brings " +
+                                                   indexed(order + "_limits", static_cast<std::size_t>(i)) + " (" +
+                                                   number(values[i]) + ") below the least of " + number(kLeastLimit));
+  }
+  return values * factor;
 }
 
 }  // namespace
@@ -68,28 +97,26 @@ std::string describe(const LimitUse& use) {
 }
 
 void validateLimits(const Limits& limits, int joints) {
-  validatePositive(limits.velocity, joints, "velocity_limits");
-  validatePositive(limits.acceleration, joints, "acceleration_limits");
-  validatePositive(limits.jerk, joints, "jerk_limits");
+  validateOrder(limits.velocity, joints, "velocity_limits");
+  validateOrder(limits.acceleration, joints, "acceleration_limits");
+  validateOrder(limits.jerk, joints, "jerk_limits");
   if (limits.lower.size() == 0 && limits.upper.size() == 0) return;
-  requireSize(limits.lower, joints, "lower position bound");
-  requireSize(limits.upper, joints, "upper position bound");
+  requireSize(limits.lower, joints, kLower);
+  requireSize(limits.upper, joints, kUpper);
+  validateBound(limits.lower, std::numeric_limits<double>::infinity(), kLower);
+  validateBound(limits.upper, -std::numeric_limits<double>::infinity(), kUpper);
   for (int i = 0; i < joints; ++i) {
     if (limits.lower[i] <= limits.upper[i]) continue;
-    throw InputError(AnswerCode::kInvalidGoal, "joint " + std::to_string(i) + " has the position bounds " +
-                                                   number(limits.lower[i]) + " to " + number(limits.upper[i]));
+    throw InputError(AnswerCode::kInvalidGoal, indexed(kLower, static_cast<std::size_t>(i)) + " is " +
+                                                   number(limits.lower[i]) + ", above the upper one, " +
+                                                   number(limits.upper[i]));
   }
 }
 
 Limits scaledLimits(const Limits& limits, double velocity_scaling, double acceleration_scaling, double jerk_scaling) {
-  requireFactor(velocity_scaling, "velocity_scaling");
-  requireFactor(acceleration_scaling, "acceleration_scaling");
-  requireFactor(jerk_scaling, "jerk_scaling");
-  Limits scaled = limits;
-  scaled.velocity *= velocity_scaling;
-  scaled.acceleration *= acceleration_scaling;
-  scaled.jerk *= jerk_scaling;
-  return scaled;
+  return {scaledOrder(limits.velocity, velocity_scaling, "velocity"),
+          scaledOrder(limits.acceleration, acceleration_scaling, "acceleration"),
+          scaledOrder(limits.jerk, jerk_scaling, "jerk"), limits.lower, limits.upper};
 }
 
 }  // namespace screwline

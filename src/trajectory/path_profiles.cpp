@@ -178,7 +178,8 @@ RetimeResult retimeExactly(const JointPath& path, const Limits& limits, const Re
     const double excess =
         tightestUse(JointTrajectory::alongPath(path, result.law, result.duration), held).stretch - 1.0;
     if (excess <= 0.1 * kLimitTolerance) return result;
-    narrowed = scaledLimits(narrowed, 1.0 - 2.0 * excess, 1.0 - 4.0 * excess, 1.0);
+    narrowed.velocity *= 1.0 - 2.0 * excess;
+    narrowed.acceleration *= 1.0 - 4.0 * excess;
   }
 }
 

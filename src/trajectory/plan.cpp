@@ -16,10 +16,17 @@ namespace {
 constexpr double kDefaultPeriod = 0.01;
 constexpr double kMostSamples = 1e6;
 
-void requireSampleCount(double duration, double period) {
+/// @param why what makes it so long.
+void requireSampleCount(double duration, double period, const std::string& why = "") {
   if (duration / period <= kMostSamples) return;
   throw InputError(AnswerCode::kTooLarge, "a duration of " + number(duration) + " s at sample_period " +
-                                              number(period) + " s makes more than 1000000 samples");
+                                              number(period) + " s makes more than 1000000 samples" + why);
+}
+
+/// Of a motion that is no longer than its limits ask: the one that asks for it.
+std::string tightestLimit(const JointTrajectory& trajectory, const Limits& limits) {
+  const LimitUse use = tightestUse(trajectory, limits);
+  return use.stretch > 0.0 ? "; the tightest limit: " + describe(use) : "";
 }
 
 /// An overshoot past a joint's range is the request's, not ours: no duration mends it, other waypoints do.
@@ -108,7 +115,7 @@ PlanResult planAsGiven(const PlanRequest& request, const Profile& profile) {
   if (draft.waypoints.empty()) {
     for (const PathPoint& waypoint : request.waypoints) draft.waypoints.push_back(waypoint.position);
   }
-  requireSampleCount(draft.trajectory.duration(), period);
+  requireSampleCount(draft.trajectory.duration(), period, tightestLimit(draft.trajectory, context.limits));
   requirePositionBounds(draft.trajectory, context.limits, request.profile);
   verifyDraft(context, draft);
   noteInfiniteOrders(draft.trajectory, request.profile, draft.notes);

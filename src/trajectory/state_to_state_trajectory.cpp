@@ -10,15 +10,14 @@
 namespace screwline {
 namespace {
 
-/// Appends the instants at which any joint changes its jerk, from `offset` to `offset` + the duration.
-void appendBreaks(const StateToStateMotion& motion, double offset, std::vector<double>& breaks) {
+/// Appends the instants at which any joint changes its jerk, from `offset` to `end`.
+void appendBreaks(const StateToStateMotion& motion, double offset, double end, std::vector<double>& breaks) {
   std::vector<double> instants;
   for (std::size_t j = 0; j < static_cast<std::size_t>(motion.joints); ++j) {
     double t = 0.0;
     for (std::size_t k = 0; k < motion.phases[j].count; ++k) instants.push_back(t += motion.phases[j].phases[k].length);
   }
   std::sort(instants.begin(), instants.end());
-  const double end = offset + motion.duration;
   for (double t : instants) {
     if (offset + t > breaks.back() && offset + t < end) breaks.push_back(offset + t);
   }
@@ -106,12 +105,12 @@ void slowDown(StateToStateMotion& motion, double factor) {
   }
 }
 
-void appendPieces(const StateToStateMotion& motion, PiecewisePolynomial& pieces) {
+void appendPieces(const StateToStateMotion& motion, PiecewisePolynomial& pieces, double end) {
   if (pieces.breaks.empty()) pieces = PiecewisePolynomial(motion.joints, 3, {0.0}, 2);
   const bool begins = pieces.segments() == 0;
   const std::size_t first = pieces.segments();
   const double offset = pieces.duration();
-  appendBreaks(motion, offset, pieces.breaks);
+  appendBreaks(motion, offset, end > 0.0 ? end : offset + motion.duration, pieces.breaks);
   pieces.coefficients.resize(pieces.segments() * 4 * static_cast<std::size_t>(motion.joints));
   pieces.ends_at_rest = true;
   for (int j = 0; j < motion.joints; ++j) {

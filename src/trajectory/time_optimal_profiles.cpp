@@ -114,14 +114,51 @@ double stretchOf(const ProfileContext& context, double shortest) {
   return std::max(1.0, wanted / shortest);
 }
 
-ProfileDraft throughWaypoints(const ProfileContext& context) {
+std::array<AxisLimits, kMaxJoints> limitsOf(const ProfileContext& context, double ramp) {
   std::array<AxisLimits, kMaxJoints> limits;
   for (int joint = 0; joint < context.joints(); ++joint) {
     const std::size_t j = static_cast<std::size_t>(joint);
-    limits[j] = limitsOf(context, joint, kShortestTime);
+    limits[j] = limitsOf(context, joint, ramp);
     requireWayOut(stateOf(context.waypoints().front(), joint), limits[j], joint);
   }
-  WaypointSearch search(context.joints(), limits, viaStates(context));
+  return limits;
+}
+
+/// Of all waypoints: how far a joint goes from one to the next, and the greatest velocity that is given.
+void measure(const ProfileContext& context, int joint, double& travel, double& velocity) {
+  const auto& waypoints = context.waypoints();
+  for (std::size_t k = 0; k < waypoints.size(); ++k) {
+    velocity = std::max(velocity, std::abs(stateOf(waypoints[k], joint).velocity));
+    if (k > 0) travel += std::abs(waypoints[k].position[joint] - waypoints[k - 1].position[joint]);
+  }
+}
+
+/// The joints' limits, lowered where a joint could go so much faster than the others that what it does is lost in the
+/// rounding of their time: no ramp of velocity or acceleration is too short beside a motion with a stop at each
+/// waypoint, no way possible in that time too long beside the joint's own.
+std::array<AxisLimits, kMaxJoints> limitsThrough(const ProfileContext& context) {
+  constexpr double kFarthest = 1e4;
+  auto limits = limitsOf(context, kShortestTime);
+  const double T = WaypointSearch(context.joints(), limits, viaStates(context)).stopDuration();
+  if (!std::isfinite(T)) return limits;
+  const double ramp = std::max(kShortestTime, kShortestRamp * T);
+  for (int joint = 0; joint < context.joints(); ++joint) {
+    AxisLimits& l = limits[static_cast<std::size_t>(joint)];
+    double travel = 0.0, given = 0.0;
+    measure(context, joint, travel, given);
+    const double v = std::min(l.velocity.upper, std::max(kFarthest * std::max(travel, 1.0) / T, 2.0 * given));
+    const double a = std::min(l.acceleration.upper, v / ramp);
+    const double j = std::min(l.jerk.upper, a / ramp);
+    l.velocity = {-v, v};
+    l.acceleration = {-a, a};
+    l.jerk = {-j, j};
+    requireWayOut(stateOf(context.waypoints().front(), joint), l, joint);
+  }
+  return limits;
+}
+
+ProfileDraft throughWaypoints(const ProfileContext& context) {
+  WaypointSearch search(context.joints(), limitsThrough(context), viaStates(context));
   const double stretch = search.run() ? stretchOf(context, search.duration()) : 1.0;
   ProfileDraft draft;
   draft.waypoint_times = {0.0};
@@ -131,10 +168,10 @@ ProfileDraft throughWaypoints(const ProfileContext& context) {
     StateToStateMotion& motion = search.motion();
     if (!feasible) refuseSegment(motion, k);
     if (stretch > 1.0) slowDown(motion, stretch);
-    appendPieces(motion, pieces);
+    const bool last = k + 2 == context.waypoints().size();
+    appendPieces(motion, pieces, stretch > 1.0 && last ? context.duration : 0.0);
     draft.waypoint_times.push_back(pieces.duration());
   }
-  if (context.duration > 0.0) pieces.breaks.back() = draft.waypoint_times.back() = context.duration;
   draft.notes.push_back("through the intermediate waypoints without a stop; with a stop at each it would take " +
                         number(search.stopDuration()) + " s");
   draft.trajectory = JointTrajectory::piecewise(std::move(pieces));

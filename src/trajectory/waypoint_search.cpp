@@ -22,6 +22,8 @@ WaypointSearch::WaypointSearch(int joints, const std::array<AxisLimits, kMaxJoin
       durations_(waypoints_.size() - 1, 0.0) {
   question_->joints = joints;
   question_->limits = limits;
+  planAll();
+  stop_duration_ = duration();
 }
 
 double WaypointSearch::duration() const {
@@ -127,8 +129,7 @@ void WaypointSearch::improve() {
 
 bool WaypointSearch::run() {
   const std::vector<ViaState> stops = waypoints_;
-  if (!planAll()) return false;
-  stop_duration_ = duration();
+  if (!std::isfinite(stop_duration_)) return false;
   guess();
   if (!planAll()) waypoints_ = stops;
   planAll();

@@ -8,12 +8,18 @@
 
 namespace screwline {
 
-/// What each joint may do, in rad (or m) and s. Every entry of the first three is positive; infinity means unlimited.
+/// Least and greatest finite entry of velocity, acceleration and jerk: beyond them times and distances that a request
+/// may ask for leave the digits of a double.
+constexpr double kLeastLimit = 1e-9;
+constexpr double kGreatestLimit = 1e12;
+
+/// What each joint may do, in rad (or m) and s. Every entry of the first three lies in [kLeastLimit, kGreatestLimit] or
+/// is infinite: unlimited.
 struct Limits {
   VectorX velocity;
   VectorX acceleration;
   VectorX jerk;
-  VectorX lower;  ///< Position bounds; empty: none.
+  VectorX lower;  ///< Position bounds; empty: none. An entry may be infinite.
   VectorX upper;
 
   static Limits unlimited(int joints);
@@ -38,11 +44,12 @@ LimitUse tightestUse(const JointTrajectory& trajectory, const Limits& limits);
 /// "joint 2 would reach acceleration 9.4, its limit is 5"
 std::string describe(const LimitUse& use);
 
-/// @throws InputError naming the field, its value and the bound: sizes other than `joints`, a limit not positive,
-/// bounds not ordered.
+/// @throws InputError naming the field, its value and the bound: sizes other than `joints`, a limit out of its range,
+/// bounds that are no numbers or not ordered.
 void validateLimits(const Limits& limits, int joints);
 
-/// Each order multiplied by its factor in (0, 1]. @throws InputError for a factor outside.
+/// Each order multiplied by its factor in (0, 1]. @throws InputError for a factor outside, or one that brings a limit
+/// below kLeastLimit.
 Limits scaledLimits(const Limits& limits, double velocity_scaling, double acceleration_scaling, double jerk_scaling);
 
 /// [s] No motion that moves is planned shorter than this, and no given time is taken below it.

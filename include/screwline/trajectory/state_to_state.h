@@ -66,8 +66,9 @@ std::string describe(const StateToStateMotion& motion);
 /// The same path `factor` times as slow. @pre factor >= 1: limits that are kept stay kept.
 void slowDown(StateToStateMotion& motion, double factor);
 
-/// The motion as polynomial pieces of degree 3 over the breakpoints of all joints. Allocates. @pre kFound.
-void appendPieces(const StateToStateMotion& motion, PiecewisePolynomial& pieces);  ///< After those there are, if any.
+/// The motion as polynomial pieces of degree 3 over the breakpoints of all joints, after those there are, if any.
+/// @param end [s] where its end is known better than as a sum of durations; 0: that sum. Allocates. @pre kFound.
+void appendPieces(const StateToStateMotion& motion, PiecewisePolynomial& pieces, double end = 0.0);
 JointTrajectory trajectoryOf(const StateToStateMotion& motion);
 
 /// The time-optimal C2 motion from a moving state to another (or to rest): a running motion is replaced. @throws

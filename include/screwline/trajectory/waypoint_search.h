@@ -33,7 +33,7 @@ class WaypointSearch {
   bool feasible(std::size_t k);
   StateToStateMotion& motion() { return *motion_; }
   double duration() const;
-  double stopDuration() const { return stop_duration_; }  ///< With a stop at each free waypoint.
+  double stopDuration() const { return stop_duration_; }  ///< With a stop at each free waypoint; infinite: no motion.
 
  private:
   double plan(std::size_t k);  ///< Cost of segment k: its duration, and others_weight_ times the joints' own mean.
