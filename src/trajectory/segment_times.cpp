@@ -23,6 +23,16 @@ TimeFrame frameOf(const ProfileContext& context) {
   return TimeFrame(std::move(given));
 }
 
+/// Where only the duration is given and the motion scales with it, the search is the one for the shortest motion: so a
+/// longer duration than that is always feasible.
+TimeFrame searchedFrame(const ProfileContext& context, bool homogeneous) {
+  const auto& waypoints = context.waypoints();
+  const bool via_times =
+      std::any_of(waypoints.begin(), waypoints.end() - 1, [](const PathPoint& w) { return w.time > 0.0; });
+  if (via_times || !homogeneous) return frameOf(context);
+  return TimeFrame(std::vector<double>(waypoints.size(), 0.0));
+}
+
 std::vector<double> stretched(std::vector<double> times, double factor) {
   for (double& t : times) t *= factor;
   return times;
@@ -183,7 +193,8 @@ ProfileDraft fitShape(const ProfileContext& context, const ShapeBuilder& build, 
   const bool scales = !frame.openEnd() || (frame.allOpen() && homogeneous);
   if (weights.size() < 2 || frame.allGiven() || (!scales && positions.size() > kMostEntries))
     return fitTimes(context, timed, weights, homogeneous);
-  const std::vector<double> found = searchedWeights(build, positions, context.limits, frame, homogeneous, weights);
+  const std::vector<double> found =
+      searchedWeights(build, positions, context.limits, searchedFrame(context, homogeneous), homogeneous, weights);
   const double before = outcome(context, timed, frame, weights, homogeneous);
   const double after = outcome(context, timed, frame, found, homogeneous);
   if (!(after < before)) return fitTimes(context, timed, weights, homogeneous);
