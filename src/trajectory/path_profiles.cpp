@@ -166,21 +166,24 @@ std::vector<double> waypointTimes(const Way& way, const RetimeResult& result, do
 }
 
 /// Pieces that are short beside the whole have their instants rounded to more than the limits tolerate: then once more,
-/// within limits that are narrower by that.
+/// within limits of that order that are narrower by that.
 RetimeResult retimeExactly(const JointPath& path, const Limits& limits, const RetimeOptions& options) {
   constexpr int kMostRounds = 4;
   Limits held = limits;
   if (!options.hold_jerk) held.jerk.setConstant(std::numeric_limits<double>::infinity());
   Limits narrowed = held;
-  for (int round = 1;; ++round) {
-    RetimeResult result = retime(path, narrowed, options);
-    if (result.status != RetimeStatus::kDone || round == kMostRounds) return result;
-    const double excess =
-        tightestUse(JointTrajectory::alongPath(path, result.law, result.duration), held).stretch - 1.0;
-    if (excess <= 0.1 * kLimitTolerance) return result;
-    narrowed.velocity *= 1.0 - 2.0 * excess;
-    narrowed.acceleration *= 1.0 - 4.0 * excess;
+  RetimeResult result = retime(path, narrowed, options);
+  for (int round = 1; round < kMostRounds && result.status == RetimeStatus::kDone; ++round) {
+    const LimitUse use = tightestUse(JointTrajectory::alongPath(path, result.law, result.duration), held);
+    const double excess = use.stretch - 1.0;
+    if (excess <= 0.1 * kLimitTolerance) break;
+    VectorX* const orders[] = {&narrowed.velocity, &narrowed.acceleration, &narrowed.jerk};
+    *orders[use.order - 1] *= 1.0 - 2.0 * use.order * excess;
+    RetimeResult again = retime(path, narrowed, options);
+    if (again.status != RetimeStatus::kDone) break;  // An end that is given at its limit.
+    result = std::move(again);
   }
+  return result;
 }
 
 [[noreturn]] void refuseShort(const ProfileContext& context, const JointTrajectory& motion, double shortest) {
@@ -213,8 +216,7 @@ ProfileDraft buildPathTimeOptimal(const ProfileContext& context) {
   options = ends.rates();
   const bool moves = options.start_rate > 0.0 || options.end_rate > 0.0;
   if (moves) options.duration = context.duration;
-  const RetimeResult result = way.corners.empty() ? retime(way.path, context.limits, options)
-                                                  : retimeExactly(way.path, context.limits, options);
+  const RetimeResult result = retimeExactly(way.path, context.limits, options);
   if (result.status == RetimeStatus::kStartTooFast) ends.refuseTooFast(true, options.start_rate, result.start_rate);
   if (result.status == RetimeStatus::kEndTooFast) ends.refuseTooFast(false, options.end_rate, result.end_rate);
   const double shortest = noLessThanShortest(result.duration);
