@@ -38,9 +38,13 @@ JointTrajectory JointTrajectory::scaled(VectorX start, VectorX delta, TimeLaw sc
   trajectory.start_ = std::move(start);
   trajectory.delta_ = std::move(delta);
   trajectory.scaling_ = std::move(scaling);
-  if (duration > kNoTime && !trajectory.scaling_.isCycloidal()) {
+  if (duration > kNoTime) {
     ScaledLine& line = trajectory.line_;
-    line.scale = ScalingTable(trajectory.scaling_.pieces(), duration);
+    if (trajectory.scaling_.isCycloidal()) {
+      line.cycloid_rate = inverseLengthOf(duration);
+    } else {
+      line.scale = ScalingTable(trajectory.scaling_.pieces(), duration);
+    }
     line.joints = trajectory.start_.size();
     line.start.assign(trajectory.start_.data(), trajectory.start_.data() + line.joints);
     line.delta.assign(trajectory.delta_.data(), trajectory.delta_.data() + line.joints);

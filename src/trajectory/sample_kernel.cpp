@@ -88,8 +88,8 @@ void scaleLinePlain(const ScaledLine& line, double t, double* position, double* 
              {position, velocity, acceleration, jerk});
 }
 
-LineKernel lineKernelPlain(const ScaledLine& /*line*/) {
-  return scaleLinePlain;
+LineKernel lineKernelPlain(const ScaledLine& line) {
+  return line.cycloid_rate > 0.0 ? nullptr : scaleLinePlain;
 }
 
 PieceKernel pieceKernelPlain(PieceShape /*shape*/) {
@@ -101,7 +101,7 @@ constexpr SampleKernels kPlain{evaluateSegmentPlain, evaluateScalingPlain, lineK
 #if defined(__x86_64__) && defined(__GNUC__)
 /// A register of the wide kernels holds four joints; fewer, and lower degrees, are the plain ones'.
 LineKernel lineKernelWide(const ScaledLine& line) {
-  return line.joints < 4 ? scaleLinePlain : lineKernelOfFour(line);
+  return line.joints < 4 ? lineKernelPlain(line) : lineKernelOfFour(line);
 }
 
 PieceKernel pieceKernelWide(PieceShape shape) {
@@ -112,7 +112,7 @@ PieceKernel pieceKernelWide(PieceShape shape) {
 SampleKernels chosenKernels() {
 #if defined(__x86_64__) && defined(__GNUC__)
   constexpr SampleKernels kWide{evaluateSegmentWide, evaluateScalingWide, lineKernelWide, pieceKernelWide};
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return kWide;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("popcnt")) return kWide;
 #endif
   return kPlain;
 }

@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
+#include "screwline/spatial/pose.h"
+#include "screwline/spatial/sincos_kernel.h"
 #include "screwline/trajectory/scaling_table.h"
 
 namespace screwline {
@@ -107,14 +110,28 @@ struct Spread {
   _mm256_storeu_pd(jerk + i, _mm256_mul_pd(d, by.ddds));
 }
 
+/// How many pieces a scaling has: that decides how the one that holds is found.
+enum class Pieces { kOne, kFew, kMany };
+
+/// How many of the breaks between few pieces are not behind t.
+[[gnu::target("avx2,fma,popcnt")]] inline std::size_t passed(const double* breaks, double t) {
+  static_assert(ScalingTable::kFew == 8, "two registers");
+  const __m256d at = _mm256_set1_pd(t);
+  const int low = _mm256_movemask_pd(_mm256_cmp_pd(_mm256_load_pd(breaks), at, _CMP_LE_OQ));
+  const int high = _mm256_movemask_pd(_mm256_cmp_pd(_mm256_load_pd(breaks + 4), at, _CMP_LE_OQ));
+  return static_cast<std::size_t>(_mm_popcnt_u32(static_cast<unsigned>(low | (high << 4))));
+}
+
+template <int kRows, Pieces kPieces>
+[[gnu::target("avx2,fma,popcnt")]] inline ScalingRows rowsAt(const ScalingTable& scale, double t) {
+  if (kPieces == Pieces::kOne) return scale.inOnly(t, kRows);
+  if (kPieces == Pieces::kFew) return scale.in(passed(scale.fewBreaks(), t), t, kRows);
+  return scale.at(t, kRows);
+}
+
 /// The last four joints may overlap those before: they get the same values twice.
-template <int kRows, bool kOnePiece>
-[[gnu::target("avx2,fma")]] void scaleLine(const ScaledLine& line, double t, double* position, double* velocity,
-                                           double* acceleration, double* jerk) {
-  const ScalingRows at = kOnePiece ? line.scale.inFirst(t, kRows) : line.scale.at(t, kRows);
-  const __m256d row = scalingRow<kRows>(at.rows, at.x);
-  const Spread by{_mm256_permute4x64_pd(row, 0x00), _mm256_permute4x64_pd(row, 0x55), _mm256_permute4x64_pd(row, 0xaa),
-                  _mm256_permute4x64_pd(row, 0xff)};
+[[gnu::target("avx2,fma")]] inline void lineOf(const Spread& by, const ScaledLine& line, double* position,
+                                               double* velocity, double* acceleration, double* jerk) {
   const double* start = line.start.data();
   const double* delta = line.delta.data();
   const std::ptrdiff_t last = line.joints - 4;
@@ -122,6 +139,34 @@ template <int kRows, bool kOnePiece>
   if (last == 0) return;
   for (std::ptrdiff_t i = 4; i < last; i += 4) lineFour(by, start, delta, i, position, velocity, acceleration, jerk);
   lineFour(by, start, delta, last, position, velocity, acceleration, jerk);
+}
+
+template <int kRows, Pieces kPieces>
+[[gnu::target("avx2,fma,popcnt")]] void scaleLine(const ScaledLine& line, double t, double* position, double* velocity,
+                                                  double* acceleration, double* jerk) {
+  const ScalingRows at = rowsAt<kRows, kPieces>(line.scale, t);
+  const __m256d row = scalingRow<kRows>(at.rows, at.x);
+  const Spread by{_mm256_permute4x64_pd(row, 0x00), _mm256_permute4x64_pd(row, 0x55), _mm256_permute4x64_pd(row, 0xaa),
+                  _mm256_permute4x64_pd(row, 0xff)};
+  lineOf(by, line, position, velocity, acceleration, jerk);
+}
+
+[[gnu::target("avx2,fma")]] void scaleCycloid(const ScaledLine& line, double t, double* position, double* velocity,
+                                              double* acceleration, double* jerk) {
+  const double tau = std::min(1.0, t * line.cycloid_rate);
+  double sine, cosine;
+  sincosKernel<std::uint64_t>(kTwoPi * tau, sine, cosine);
+  const double turn = kTwoPi * line.cycloid_rate;
+  const Spread by{_mm256_set1_pd(tau - sine * (1.0 / kTwoPi)), _mm256_set1_pd(line.cycloid_rate * (1.0 - cosine)),
+                  _mm256_set1_pd(line.cycloid_rate * turn * sine),
+                  _mm256_set1_pd(line.cycloid_rate * turn * turn * cosine)};
+  lineOf(by, line, position, velocity, acceleration, jerk);
+}
+
+template <int kRows>
+LineKernel scaleLineOf(std::size_t pieces) {
+  if (pieces == 1) return scaleLine<kRows, Pieces::kOne>;
+  return pieces <= ScalingTable::kFew + 1 ? scaleLine<kRows, Pieces::kFew> : scaleLine<kRows, Pieces::kMany>;
 }
 
 }  // namespace
@@ -160,10 +205,9 @@ template <int kRows, bool kOnePiece>
 }
 
 LineKernel lineKernelOfFour(const ScaledLine& line) {
-  const bool one = line.scale.isOnePiece();
-  if (line.scale.rowCount() == 4) return one ? scaleLine<4, true> : scaleLine<4, false>;
-  if (line.scale.rowCount() == 6) return one ? scaleLine<6, true> : scaleLine<6, false>;
-  return one ? scaleLine<8, true> : scaleLine<8, false>;
+  if (line.cycloid_rate > 0.0) return scaleCycloid;
+  if (line.scale.rowCount() == 4) return scaleLineOf<4>(line.scale.size());
+  return line.scale.rowCount() == 6 ? scaleLineOf<6>(line.scale.size()) : scaleLineOf<8>(line.scale.size());
 }
 
 }  // namespace screwline

@@ -1,5 +1,8 @@
 #include "screwline/trajectory/scaling_table.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace screwline {
 
 ScalingTable::ScalingTable(const PiecewisePolynomial& pieces, double stretch)
@@ -9,6 +12,9 @@ ScalingTable::ScalingTable(const PiecewisePolynomial& pieces, double stretch)
   std::vector<double> breaks;
   for (double b : pieces.breaks) breaks.push_back(b * stretch);
   breaks_ = BreakTable(breaks);
+  few_.assign(kFew, std::numeric_limits<double>::infinity());
+  if (pieces.segments() >= 2 && pieces.segments() <= kFew + 1)
+    std::copy(breaks.begin() + 1, breaks.end() - 1, few_.begin());
   const std::size_t rows = static_cast<std::size_t>(row_count_);
   pieces_.resize(pieces.segments() * strideOf(row_count_), 0.0);
   double* to = pieces_.data();

@@ -125,8 +125,8 @@ class JointTrajectory {
   VectorX start_;
   VectorX delta_;
   TimeLaw scaling_ = TimeLaw::rectangular();
-  ScaledLine line_;  ///< The scaled form by time; empty where s is no polynomial or nothing takes time.
-  LineKernel line_kernel_ = nullptr;  ///< Null where it is empty.
+  ScaledLine line_;                   ///< The scaled form by time; empty where nothing takes time.
+  LineKernel line_kernel_ = nullptr;  ///< Null where it is empty, or has none.
   ScalingTable along_;                ///< u by time, along a path.
   JointPath path_;
   std::vector<JointExtrema> extrema_;  ///< Along a path: of each joint.

@@ -61,7 +61,8 @@ struct SampleKernels {
   void (*segment)(const SegmentCoefficients& segment, double x, const ChainFactors& chain, const SampleOutput& output);
   /// s and its three derivatives into 4 values.
   void (*scaling)(const ScalingRows& scaling, double* values);
-  /// The kernel for a line: by the number of its joints, of the pieces of its scaling and of their rows.
+  /// The kernel for a line: by the number of its joints, of the pieces of its scaling and of their rows. Null where a
+  /// cycloid has none.
   LineKernel (*line)(const ScaledLine& line);
   /// The kernel of segment() where x is linear in time.
   PieceKernel (*piece)(PieceShape shape);

@@ -48,36 +48,47 @@ class ScalingTable {
   explicit ScalingTable(const PiecewisePolynomial& pieces, double stretch = 1.0);
 
   bool empty() const { return pieces_.empty(); }
-  int rowCount() const { return row_count_; }  ///< 4, 6 or 8.
-  bool isOnePiece() const { return pieces_.size() == strideOf(row_count_); }
+  int rowCount() const { return row_count_; }                                 ///< 4, 6 or 8.
+  std::size_t size() const { return pieces_.size() / strideOf(row_count_); }  ///< Pieces.
 
   /// The rows that hold at t and the place of t in their piece; at a breakpoint the later piece's, behind the last
   /// the end. Does not allocate. @pre t >= 0
   ScalingRows at(double t) const { return at(t, row_count_); }
 
-  /// The same for code that is compiled for one number of rows, and for one piece alone. @pre row_count is rowCount()
+  /// The same for code that is compiled for one number of rows. @pre row_count is rowCount()
   ScalingRows at(double t, int row_count) const { return in(breaks_.find(t), t, row_count); }
-  ScalingRows inFirst(double t, int row_count) const { return in(0, t, row_count); }
 
- private:
-  /// Whole cache lines for the rows of a piece, its start, and its inverse length: rounded up, so that the place at its
-  /// end is 1, and 0 for a piece that takes no time.
-  static std::size_t strideOf(int row_count) { return (4 * static_cast<std::size_t>(row_count) + 2 + 7) / 8 * 8; }
+  /// The same for one piece alone. @pre size() is 1
+  ScalingRows inOnly(double t, int row_count) const {
+    return {pieces_.data(), row_count, std::min(1.0, t * pieces_[4 * static_cast<std::size_t>(row_count) + 1])};
+  }
 
+  /// The same in a piece that is known.
   ScalingRows in(std::size_t k, double t, int row_count) const {
     const double* piece = pieces_.data() + k * strideOf(row_count);
     const double* span = piece + 4 * row_count;
     return {piece, row_count, std::min(1.0, (t - span[0]) * span[1])};
   }
 
+  /// Of at most kFew + 1 pieces the breaks between them, then infinity, kFew values: as few are compared all at once.
+  static constexpr std::size_t kFew = 8;
+  const double* fewBreaks() const { return few_.data(); }
+
+ private:
+  /// Whole cache lines for the rows of a piece, its start, and its inverse length: rounded up, so that the place at its
+  /// end is 1, and 0 for a piece that takes no time.
+  static std::size_t strideOf(int row_count) { return (4 * static_cast<std::size_t>(row_count) + 2 + 7) / 8 * 8; }
+
   BreakTable breaks_;
+  AlignedValues few_;
   AlignedValues pieces_;
   int row_count_ = 8;
 };
 
 /// A scalar s(t) and what it moves: start + delta s(t), values of each joint.
 struct ScaledLine {
-  ScalingTable scale;
+  ScalingTable scale;         ///< Empty for the cycloid:
+  double cycloid_rate = 0.0;  ///< [1/s] of its tau; 0: none.
   std::ptrdiff_t joints = 0;
   AlignedValues start;
   AlignedValues delta;
