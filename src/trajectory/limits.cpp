@@ -107,9 +107,9 @@ void validateLimits(const Limits& limits, int joints) {
   validateBound(limits.upper, -std::numeric_limits<double>::infinity(), kUpper);
   for (int i = 0; i < joints; ++i) {
     if (limits.lower[i] <= limits.upper[i]) continue;
-    throw InputError(AnswerCode::kInvalidGoal, indexed(kLower, static_cast<std::size_t>(i)) + " is " +
-                                                   number(limits.lower[i]) + ", above the upper one, " +
-                                                   number(limits.upper[i]));
+    throw InputError(AnswerCode::kInvalidGoal,
+                     indexed(kLower, static_cast<std::size_t>(i)) + " is " + number(limits.lower[i]) + ", above " +
+                         indexed(kUpper, static_cast<std::size_t>(i)) + ", " + number(limits.upper[i]));
   }
 }
 

@@ -23,10 +23,10 @@ void requireSampleCount(double duration, double period, const std::string& why =
                                               number(period) + " s makes more than 1000000 samples" + why);
 }
 
-/// Of a motion that is no longer than its limits ask: the one that asks for it.
+/// The limit that asks for a motion's length, where one does.
 std::string tightestLimit(const JointTrajectory& trajectory, const Limits& limits) {
   const LimitUse use = tightestUse(trajectory, limits);
-  return use.stretch > 0.0 ? "; the tightest limit: " + describe(use) : "";
+  return use.stretch > 0.999 ? "; the tightest limit: " + describe(use) : "";
 }
 
 /// An overshoot past a joint's range is the request's, not ours: no duration mends it, other waypoints do.

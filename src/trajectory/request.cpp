@@ -156,7 +156,7 @@ void validateParameters(const PlanRequest& request, const Profile& profile) {
 
 void requirePose(const Pose& pose, const std::string& field) {
   for (int i = 0; i < 3; ++i) requireUsable(pose.p[i], field + ".position");
-  const double off = (pose.R.transpose() * pose.R - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  const double off = (pose.R.transpose() * pose.R - Matrix3::Identity()).norm();  // A maximum may overlook NaN.
   if (!(off <= 1e-6)) refuse(field + ".orientation is no rotation: R^T R is off the identity by " + number(off));
 }
 
@@ -173,6 +173,7 @@ void validateKinematics(const PlanRequest& request, const Profile& profile) {
            std::to_string(request.kinematics->chain().size()));
   }
   if (request.present.size() > 0) requireVector(request.present, request.limits.joints(), "present");
+  requireTime(request.ik_timeout, "ik_timeout");
 }
 
 void validateContinuous(const PlanRequest& request) {

@@ -6,6 +6,7 @@
 
 #include "screwline/exception.h"
 #include "screwline/trajectory/format.h"
+#include "screwline/trajectory/limits.h"
 
 namespace screwline {
 namespace {
@@ -17,8 +18,9 @@ constexpr double kRounding = 1e-12;  // A pair on the very boundary is feasible,
 }
 
 void requirePositive(const std::optional<double>& value, const char* name) {
-  if (value && !(*value > 0.0 && std::isfinite(*value))) {
-    infeasible(std::string(name) + " is " + number(*value) + ", it must be positive and finite");
+  if (value && !(*value >= kLeastLimit && *value <= kGreatestLimit)) {
+    infeasible(std::string(name) + " is " + number(*value) + ", it must be positive: " + number(kLeastLimit) + " to " +
+               number(kGreatestLimit));
   }
 }
 

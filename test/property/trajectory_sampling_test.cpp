@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "screwline/trajectory/joint_trajectory.h"
 #include "screwline/trajectory/scaling_table.h"
 
 namespace screwline {
@@ -120,12 +121,14 @@ class RandomLine {
 
 TEST(SampleKernels, LinesFollowTheScaling) {
   std::mt19937 random(kSeed + 1);
+  // One piece, few and many are found in ways of their own.
+  const std::vector<double> breaks[] = {
+      {0.0, 1.0}, {0.0, 0.2, 0.7, 1.0}, {0.0, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}};
   for (const SampleKernels* kernels : {&sampleKernels(), &plainSampleKernels()}) {
-    for (int trial = 0; trial < 2 * 13 * (Polynomial::kMaxDegree + 1); ++trial) {
-      const int joints = 1 + trial / 2 % 13;
-      const int degree = trial / 2 / 13;
-      const RandomLine motion(random, joints, degree,
-                              trial % 2 == 0 ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0, 0.2, 0.7, 1.0});
+    for (int trial = 0; trial < 3 * 13 * (Polynomial::kMaxDegree + 1); ++trial) {
+      const int joints = 1 + trial / 3 % 13;
+      const int degree = trial / 3 / 13;
+      const RandomLine motion(random, joints, degree, breaks[static_cast<std::size_t>(trial % 3)]);
       for (double tau : {0.0, uniform(random, 0.0, 0.2), 0.2, uniform(random, 0.2, 0.7), 0.7, 1.0}) {
         Samples samples(joints);
         auto& v = samples.values;
@@ -136,6 +139,29 @@ TEST(SampleKernels, LinesFollowTheScaling) {
             std::to_string(joints) + " joints, degree " + std::to_string(degree) + ", tau " + std::to_string(tau));
       }
     }
+  }
+}
+
+TEST(SampleKernels, CycloidsAreTheirFormula) {
+  std::mt19937 random(kSeed + 3);
+  const double turn = 2.0 * std::acos(-1.0);
+  for (int joints = 1; joints < 10; ++joints) {
+    const VectorX start = VectorX::NullaryExpr(joints, [&] { return uniform(random, -3.0, 3.0); });
+    const VectorX delta = VectorX::NullaryExpr(joints, [&] { return uniform(random, -3.0, 3.0); });
+    const double T = uniform(random, 0.5, 5.0);
+    const JointTrajectory motion = JointTrajectory::scaled(start, delta, TimeLaw::cycloidal(), T);
+    TrajectoryPoint point(joints);
+    for (int i = 0; i <= 100; ++i) {
+      const double tau = i / 100.0;
+      motion.sample(tau * T, point);
+      const double sine = std::sin(turn * tau), cosine = std::cos(turn * tau);
+      const double rate = turn / T;
+      EXPECT_LT((point.position - start - delta * (tau - sine / turn)).cwiseAbs().maxCoeff(), 1e-14);
+      EXPECT_LT((point.velocity - delta * ((1.0 - cosine) / T)).cwiseAbs().maxCoeff(), 1e-13);
+      EXPECT_LT((point.acceleration - delta * (rate / T * sine)).cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_LT((point.jerk - delta * (rate * rate / T * cosine)).cwiseAbs().maxCoeff(), 1e-11);
+    }
+    EXPECT_EQ(point.position, VectorX(start + delta)) << "exactly at the end";
   }
 }
 
