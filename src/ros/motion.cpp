@@ -109,7 +109,8 @@ Motion startFrom(const MotionState& present, const JointTrajectory& main, const 
   TrajectoryPoint first(main.joints());
   main.sample(0.0, first);
   const bool at_rest = isAtRest(present);
-  if (at_rest && (present.position - first.position).cwiseAbs().maxCoeff() <= kSamePlace) return Motion(main);
+  const bool there = (present.position - first.position).cwiseAbs().maxCoeff() <= kSamePlace;
+  if (at_rest && there && !main.startsMoving()) return Motion(main);
   if (!at_rest || !first.velocity.isZero(kRest)) {
     const MotionState moving{first.position, first.velocity, first.acceleration};
     if (const auto lead = leadTo(moving, present, limits)) return {*lead, main};

@@ -144,34 +144,6 @@ ProfileDraft follow(const ProfileContext& context, const ToolPath& path, const s
   return draft;
 }
 
-/// How corners are passed, and which of them no blend of that size fits.
-void noteBlends(const std::vector<Corner>& corners, const ToolPathOptions& options, std::vector<std::string>& notes) {
-  double deviation = 0.0;
-  double off_lines = 0.0;
-  double least = options.blend_radius;
-  std::size_t stops = 0;
-  std::size_t narrow = 0;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    deviation = std::max(deviation, corners[k].deviation);
-    off_lines = std::max(off_lines, corners[k].off_lines);
-    stops += corners[k].stops ? 1 : 0;
-    if (!corners[k].shortened || corners[k].reach >= least) continue;
-    least = corners[k].reach;
-    narrow = k;
-  }
-  std::string text = "corners are blended within blend_radius " + number(options.blend_radius) +
-                     " m, the tip passes them at up to " + number(deviation) + " m";
-  if (!options.screw) text += ", the lines between them at up to " + number(off_lines) + " m";
-  if (stops > 0) {
-    text += "; it stops at " + std::to_string(stops) + " where it only turns before or behind or goes straight back";
-  }
-  if (narrow > 0) {
-    text += "; lines beside are too short for it and shared with the next corners: " + number(least) + " m at " +
-            indexed("waypoints", narrow);
-  }
-  notes.push_back(text);
-}
-
 }  // namespace
 
 ProfileDraft buildCartesianLine(const ProfileContext& context) {
@@ -181,7 +153,8 @@ ProfileDraft buildCartesianLine(const ProfileContext& context) {
   const std::vector<Pose> poses = posesOf(context);
   const ToolLines lines = linesThrough(poses, options);
   ProfileDraft draft = follow(context, lines.path, poses, options.blend_radius == 0.0);
-  if (options.blend_radius > 0.0 && lines.path.length() > 0.0) noteBlends(lines.corners, options, draft.notes);
+  if (options.blend_radius > 0.0 && lines.path.length() > 0.0)
+    noteCorners(lines.corners, options.blend_radius, " m", draft.notes);
   return draft;
 }
 

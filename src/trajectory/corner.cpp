@@ -66,7 +66,8 @@ Corner describeCorner(double reach, double middle, const VectorX& before, const 
   return corner;
 }
 
-void noteCorners(const std::vector<Corner>& corners, double radius, std::vector<std::string>& notes) {
+void noteCorners(const std::vector<Corner>& corners, double radius, const std::string& unit,
+                 std::vector<std::string>& notes) {
   if (radius == 0.0) {
     notes.push_back("blend_radius is 0: the motion stops where the lines between waypoints bend");
     return;
@@ -86,16 +87,18 @@ void noteCorners(const std::vector<Corner>& corners, double radius, std::vector<
     least = corner.reach;
     narrowest = k;
   }
-  notes.push_back("corners are blended within blend_radius " + number(radius) +
-                  " (norm of joint differences); the way passes its waypoints at a distance of up to " +
-                  number(deviation) + ", the lines between them at up to " + number(off_lines));
+  const auto distance = [&](double value) { return number(value) + unit; };
+  notes.push_back("corners are blended within blend_radius " + distance(radius) +
+                  (unit.empty() ? " (norm of joint differences)" : "") +
+                  "; the way passes its waypoints at a distance of up to " + distance(deviation) +
+                  (off_lines > 0.0 ? ", the lines between them at up to " + distance(off_lines) : ""));
   if (stops > 0)
     notes.push_back("at " + several(stops, first_stop) +
-                    " the way turns straight back, or lines are too short: it stops there");
+                    " the way turns straight back or in place, or lines are too short: it stops there");
   if (shortened == 0) return;
   notes.push_back("at " + std::to_string(shortened) +
                   " waypoints the lines beside are too short for blend_radius and shared with the next corners: " +
-                  number(least) + " at " + indexed("waypoints", narrowest));
+                  distance(least) + " at " + indexed("waypoints", narrowest));
 }
 
 }  // namespace screwline

@@ -101,6 +101,12 @@ int JointTrajectory::continuity() const {
   return joins_rest ? std::min(pieces_.continuity, pieces_.rest_continuity) : pieces_.continuity;
 }
 
+bool JointTrajectory::startsMoving() const {
+  const TimeLaw* const law = scaling();
+  if (law != nullptr) return !law->isCycloidal() && !law->pieces().starts_at_rest;
+  return form_ == Form::kPiecewise && !pieces_.starts_at_rest;
+}
+
 /// A path that turns is stopped at, so its motion may be smoother than the path: what steps decides.
 int JointTrajectory::pathContinuity() const {
   const PiecewisePolynomial& s = scaling_.pieces();

@@ -145,7 +145,7 @@ std::optional<ProfileDraft> blendedTrapezoids(const ProfileContext& context, dou
   }
   if (context.duration > 0.0) lengthen(lines, context.duration);
   ProfileDraft draft{JointTrajectory::piecewise(std::move(lines.motion)), std::move(lines.times), {}};
-  noteCorners(lines.corners, radius, draft.notes);
+  noteCorners(lines.corners, radius, "", draft.notes);
   return draft;
 }
 

@@ -226,7 +226,7 @@ ProfileDraft buildPathTimeOptimal(const ProfileContext& context) {
   if (duration < shortest * (1.0 - kLimitTolerance)) refuseShort(context, draft.trajectory, shortest);
   draft.meets_vias =
       std::all_of(way.corners.begin(), way.corners.end(), [](const Corner& c) { return c.reach == 0.0; });
-  if (!way.corners.empty()) noteCorners(way.corners, context.blendRadius(), draft.notes);
+  if (!way.corners.empty()) noteCorners(way.corners, context.blendRadius(), "", draft.notes);
   return draft;
 }
 

@@ -334,7 +334,7 @@ TEST(CartesianBlend, TheMessageSaysWhatTheCornersAre) {
   const auto at = [&](double x, double y) { return Pose{A.R, A.p + Vector3(x, y, 0.0)}; };
   PlanRequest question = arm.request("cartesian_line", {A, at(0.1, 0.0), at(0.1, 0.06)}, q);
   question.parameters = {{"blend_radius", 0.02}};
-  EXPECT_NE(joined(plan(question).notes).find("passes them at up to 0.0053"), std::string::npos);
+  EXPECT_NE(joined(plan(question).notes).find("at a distance of up to 0.0053"), std::string::npos);
   EXPECT_NE(joined(plan(question).notes).find("the lines between them at up to 0.00375 m"), std::string::npos);
   EXPECT_EQ(joined(plan(question).notes).find("shared"), std::string::npos);
   question.parameters = {{"blend_radius", 0.08}};

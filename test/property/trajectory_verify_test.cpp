@@ -121,6 +121,43 @@ TEST(Verify, SaysWhenAndByHowMuch) {
   EXPECT_TRUE(says(text, " at ")) << text;
 }
 
+/// A step of a millionth in any derivative that a motion promises to be continuous, at any breakpoint.
+TEST(Verify, AStepOfAMillionth) {
+  Random random(83);
+  int checked = 0;
+  for (const char* profile : {"multipoint_cubic", "multipoint_quintic", "bspline", "bspline_interpolating",
+                              "time_optimal", "double_s", "trapezoidal", "multipoint_trapezoidal"}) {
+    for (int trial = 0; trial < 6; ++trial) {
+      const std::vector<VectorX> way{vector({0.0, 0.1}), vector({random.uniform(0.5, 1.0), random.uniform(-1.0, 1.0)}),
+                                     vector({random.uniform(-1.0, 0.0), 0.3})};
+      const bool two = std::string(profile) == "double_s" || std::string(profile) == "trapezoidal";
+      const JointTrajectory motion = planned(profile, two ? std::vector<VectorX>{way[0], way[1]} : way);
+      const bool scaled = motion.scaling() != nullptr;
+      const PiecewisePolynomial pieces = scaled ? motion.scaling()->pieces() : *motion.pieces();
+      EXPECT_EQ(verdict(motion, Limits::unlimited(2)), "") << profile;
+      for (int order = 0; order <= pieces.continuity; ++order) {
+        for (std::size_t k = 1; k < pieces.segments(); ++k) {
+          const double h = pieces.length(k);
+          if (h < 1e-3 * pieces.duration()) continue;
+          const int joint = scaled ? 0 : 1;
+          const JointExtrema e = pieces.extrema(joint);
+          const double size[] = {std::max(1.0, e.position.peak()), e.velocity, e.acceleration};
+          PiecewisePolynomial broken = pieces;
+          // c_order = value * h^order / order!
+          broken.at(k, order, joint) += 1e-6 * size[order] * std::pow(h, order) / (order == 2 ? 2.0 : 1.0);
+          const JointTrajectory stepping =
+              scaled ? JointTrajectory::scaled(motion.start(), motion.delta(), TimeLaw(broken), motion.duration())
+                     : JointTrajectory::piecewise(broken);
+          EXPECT_TRUE(says(verdict(stepping, Limits::unlimited(2)), "steps by"))
+              << profile << ", seed 83, trial " << trial << ", order " << order << ", piece " << k;
+          ++checked;
+        }
+      }
+    }
+  }
+  EXPECT_GT(checked, 300);
+}
+
 TEST(Verify, WaypointsAreMetInTheirOrder) {
   const JointTrajectory motion = planned("polynomial_345", {vector({0.0}), vector({1.0})}, 4.0);
   const Limits limits = limitsOf(1, 1.0, 4.0, 40.0);

@@ -15,7 +15,7 @@ namespace screwline {
 struct Corner {
   double reach = 0.0;      ///< The line is left and met again so far from the waypoint: at most the radius.
   double deviation = 0.0;  ///< The nearest that the way comes to the waypoint.
-  double off_lines = 0.0;  ///< The farthest that the way is from both lines beside.
+  double off_lines = 0.0;  ///< The farthest that the way is from both lines beside; 0 beside screws: not known.
   bool shortened = false;  ///< The lines beside are too short for the radius: they are shared with other corners.
   bool stops = false;      ///< The way turns straight back, or has no room for a blend: at rest in the waypoint.
 };
@@ -42,8 +42,11 @@ constexpr double kCornerMiddle = 3.0 / 16.0;
 /// Of a blend in whose middle both lines' terms are `middle`.
 Corner describeCorner(double reach, double middle, const VectorX& before, const VectorX& after);
 
-/// What a message says of all corners together: greatest distances, stops, and where the lines are too short.
-void noteCorners(const std::vector<Corner>& corners, double radius, std::vector<std::string>& notes);
+/// What a message says of all corners together: greatest distances (from the lines too, where that is known), stops,
+/// and where the lines are too short. @param unit behind each distance: " m" of a tip's; empty: a norm of joint
+/// differences.
+void noteCorners(const std::vector<Corner>& corners, double radius, const std::string& unit,
+                 std::vector<std::string>& notes);
 
 }  // namespace screwline
 

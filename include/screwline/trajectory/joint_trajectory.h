@@ -59,6 +59,10 @@ class JointTrajectory {
   /// moving.
   int continuity() const;
 
+  /// True where it starts in a moving state that is no step from rest: it has to be entered in motion. (A sinusoid is
+  /// taken as it is: it has no start of its own.)
+  bool startsMoving() const;
+
   /// Instants inside (0, duration) at which a derivative up to jerk may step: a sampled copy should hold each of them.
   std::vector<double> corners() const;
 
