@@ -49,8 +49,9 @@ bool isAtRest(const MotionState& state);
 bool keepsPositions(const JointTrajectory& trajectory, const Limits& limits);
 
 /// The motion from the present state. From rest at its first position it starts as it is (with the steps that its
-/// profile has), unless it starts in a moving state; else by a lead, the shortest within the limits: to its first state, continuous to acceleration, or,
-/// where the limits allow no such way, to rest at its first position. The lead is verified before it is returned.
+/// profile has), unless it starts in a moving state; else by a lead, the shortest within the limits: to its first
+/// state, continuous to acceleration, or, where the limits allow no such way, to rest at its first position. The lead
+/// is verified before it is returned.
 /// @throws InputError (kLimitsInfeasible): no lead within the limits.
 Motion startFrom(const MotionState& present, const JointTrajectory& main, const Limits& limits);
 
