@@ -135,41 +135,42 @@ std::optional<std::string> checkLimits(const JointTrajectory& trajectory, const 
   return std::nullopt;
 }
 
-double shortestPiece(const PiecewisePolynomial& motion) {
-  double shortest = motion.duration();
-  for (std::size_t k = 0; k < motion.segments(); ++k) {
-    if (motion.length(k) > 0.0) shortest = std::min(shortest, motion.length(k));
-  }
-  return shortest;
-}
+/// A step of a derivative: when, how large, and how much of that may be rounding.
+struct Step {
+  double time = 0.0;
+  double value = 0.0;
+  double rounding = 0.0;
+};
 
-/// The largest step of a derivative, and when.
-Breach largestStep(const PiecewisePolynomial& motion, int index, int order) {
-  Breach largest;
-  const auto take = [&](double time, double step) {
-    if (!(std::abs(step) <= largest.value)) largest = {time, std::abs(step)};
+/// The step that stands out most.
+/// @param scale of positions. Their rounding over the shorter of the pieces beside is what derivatives may step by.
+Step largestStep(const PiecewisePolynomial& motion, int index, int order, double scale) {
+  constexpr double kRounding = 1e-13;
+  Step largest;
+  const auto take = [&](double time, double step, double length) {
+    const double rounding = length > 0.0 ? kRounding * scale / std::pow(length, order) : 0.0;
+    if (std::abs(step) - rounding <= largest.value - largest.rounding) return;
+    largest = {time, std::abs(step), rounding};
   };
   if (order <= motion.continuity) {
     for (std::size_t k = 1; k < motion.segments(); ++k) {
-      take(motion.breaks[k], motion.atEnd(k, index, order, false) - motion.atEnd(k - 1, index, order, true));
+      take(motion.breaks[k], motion.atEnd(k, index, order, false) - motion.atEnd(k - 1, index, order, true),
+           std::min(motion.length(k - 1), motion.length(k)));
     }
   }
   if (order > 0 && order <= motion.rest_continuity && motion.segments() > 0) {
     const std::size_t last = motion.segments() - 1;
-    if (motion.starts_at_rest) take(0.0, motion.atEnd(0, index, order, false));
-    if (motion.ends_at_rest) take(motion.duration(), motion.atEnd(last, index, order, true));
+    if (motion.starts_at_rest) take(0.0, motion.atEnd(0, index, order, false), motion.length(0));
+    if (motion.ends_at_rest) take(motion.duration(), motion.atEnd(last, index, order, true), motion.length(last));
   }
   return largest;
 }
 
 std::optional<std::string> checkSteps(const PiecewisePolynomial& motion, const JointExtrema& e, int index) {
   const double scale[] = {std::max(1.0, e.position.peak()), e.velocity, e.acceleration, e.jerk};
-  const double shortest = shortestPiece(motion);
   for (int order = 0; order <= std::max(motion.continuity, motion.rest_continuity); ++order) {
-    const Breach step = largestStep(motion, index, order);
-    // Rounding of positions over the shortest piece is the floor of what derivatives can cancel to.
-    const double floor = shortest > 0.0 ? 1e-13 * scale[0] / std::pow(shortest, order) : 0.0;
-    if (step.value <= kStepTolerance * scale[order] + floor) continue;
+    const Step step = largestStep(motion, index, order, scale[0]);
+    if (step.value <= kStepTolerance * scale[order] + step.rounding) continue;
     return joint(index) + "derivative " + std::to_string(order) + " steps by " + number(step.value) + " at " +
            number(step.time) + " s, the motion promises that it does not";
   }

@@ -137,8 +137,9 @@ TEST(Verify, AStepOfAMillionth) {
       EXPECT_EQ(verdict(motion, Limits::unlimited(2)), "") << profile;
       for (int order = 0; order <= pieces.continuity; ++order) {
         for (std::size_t k = 1; k < pieces.segments(); ++k) {
+          // Beside pieces of nanoseconds a step is not told from rounding.
           const double h = pieces.length(k);
-          if (h < 1e-3 * pieces.duration()) continue;
+          if (std::min(h, pieces.length(k - 1)) < 1e-3 * pieces.duration()) continue;
           const int joint = scaled ? 0 : 1;
           const JointExtrema e = pieces.extrema(joint);
           const double size[] = {std::max(1.0, e.position.peak()), e.velocity, e.acceleration};
