@@ -55,7 +55,8 @@ BlendedMove shortestTrapezoid(const VectorX& delta, const Limits& limits) {
   if (delta.isZero(0.0)) return {1.0 / 3.0, 0.0};
   if (std::isinf(a)) return {1.0 / 3.0, std::isinf(v) ? 1.0 : noLessThanShortest(1.5 / v)};
   if (v * v >= a) return {0.5, noLessThanShortest(2.0 / std::sqrt(a))};
-  const double ramp = v / a;
+  constexpr double kShortestRamp = 1e-6;  // Of the duration: shorter ones are lost in the rounding of their instants.
+  const double ramp = std::max(v / a, kShortestRamp / v);
   const double duration = 1.0 / v + ramp;
   return {ramp / duration, noLessThanShortest(duration)};
 }

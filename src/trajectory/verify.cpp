@@ -143,12 +143,15 @@ struct Step {
 };
 
 /// The step that stands out most.
-/// @param scale of positions. Their rounding over the shorter of the pieces beside is what derivatives may step by.
-Step largestStep(const PiecewisePolynomial& motion, int index, int order, double scale) {
+/// @param scale of positions: their rounding over the shorter of the pieces beside is what derivatives may step by;
+/// @param next of the derivative above: the rounding of instants times that is too.
+Step largestStep(const PiecewisePolynomial& motion, int index, int order, double scale, double next) {
   constexpr double kRounding = 1e-13;
+  constexpr double kInstants = 1e-15;
   Step largest;
   const auto take = [&](double time, double step, double length) {
-    const double rounding = length > 0.0 ? kRounding * scale / std::pow(length, order) : 0.0;
+    double rounding = length > 0.0 ? kRounding * scale / std::pow(length, order) : 0.0;
+    if (std::isfinite(next)) rounding += kInstants * next * time;
     if (std::abs(step) - rounding <= largest.value - largest.rounding) return;
     largest = {time, std::abs(step), rounding};
   };
@@ -167,9 +170,9 @@ Step largestStep(const PiecewisePolynomial& motion, int index, int order, double
 }
 
 std::optional<std::string> checkSteps(const PiecewisePolynomial& motion, const JointExtrema& e, int index) {
-  const double scale[] = {std::max(1.0, e.position.peak()), e.velocity, e.acceleration, e.jerk};
+  const double scale[] = {std::max(1.0, e.position.peak()), e.velocity, e.acceleration, e.jerk, 0.0};
   for (int order = 0; order <= std::max(motion.continuity, motion.rest_continuity); ++order) {
-    const Step step = largestStep(motion, index, order, scale[0]);
+    const Step step = largestStep(motion, index, order, scale[0], scale[order + 1]);
     if (step.value <= kStepTolerance * scale[order] + step.rounding) continue;
     return joint(index) + "derivative " + std::to_string(order) + " steps by " + number(step.value) + " at " +
            number(step.time) + " s, the motion promises that it does not";
