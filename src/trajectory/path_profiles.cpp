@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <optional>
 
 #include "hold_jerk.h"
@@ -167,14 +168,18 @@ std::vector<double> waypointTimes(const Way& way, const RetimeResult& result, do
 
 /// Pieces that are short beside the whole have their instants rounded to more than the limits tolerate: then once more,
 /// within limits of that order that are narrower by that.
-RetimeResult retimeExactly(const JointPath& path, const Limits& limits, const RetimeOptions& options) {
+/// @param motion what results, where the status is kDone.
+RetimeResult retimeExactly(const JointPath& path, const Limits& limits, const RetimeOptions& options,
+                           JointTrajectory& motion) {
   constexpr int kMostRounds = 4;
   Limits held = limits;
   if (!options.hold_jerk) held.jerk.setConstant(std::numeric_limits<double>::infinity());
   Limits narrowed = held;
   RetimeResult result = retime(path, narrowed, options);
-  for (int round = 1; round < kMostRounds && result.status == RetimeStatus::kDone; ++round) {
-    const LimitUse use = tightestUse(JointTrajectory::alongPath(path, result.law, result.duration), held);
+  for (int round = 1; result.status == RetimeStatus::kDone; ++round) {
+    motion = JointTrajectory::alongPath(path, result.law, result.duration);
+    if (round == kMostRounds) break;
+    const LimitUse use = tightestUse(motion, held);
     const double excess = use.stretch - 1.0;
     if (excess <= 0.1 * kLimitTolerance) break;
     VectorX* const orders[] = {&narrowed.velocity, &narrowed.acceleration, &narrowed.jerk};
@@ -216,13 +221,15 @@ ProfileDraft buildPathTimeOptimal(const ProfileContext& context) {
   options = ends.rates();
   const bool moves = options.start_rate > 0.0 || options.end_rate > 0.0;
   if (moves) options.duration = context.duration;
-  const RetimeResult result = retimeExactly(way.path, context.limits, options);
+  JointTrajectory fastest;
+  const RetimeResult result = retimeExactly(way.path, context.limits, options, fastest);
   if (result.status == RetimeStatus::kStartTooFast) ends.refuseTooFast(true, options.start_rate, result.start_rate);
   if (result.status == RetimeStatus::kEndTooFast) ends.refuseTooFast(false, options.end_rate, result.end_rate);
   const double shortest = noLessThanShortest(result.duration);
   const double duration = context.duration > 0.0 ? context.duration : shortest;
-  ProfileDraft draft{
-      JointTrajectory::alongPath(way.path, result.law, duration), waypointTimes(way, result, duration), {}};
+  JointTrajectory motion =
+      duration == result.duration ? std::move(fastest) : JointTrajectory::alongPath(way.path, result.law, duration);
+  ProfileDraft draft{std::move(motion), waypointTimes(way, result, duration), {}};
   if (duration < shortest * (1.0 - kLimitTolerance)) refuseShort(context, draft.trajectory, shortest);
   draft.meets_vias =
       std::all_of(way.corners.begin(), way.corners.end(), [](const Corner& c) { return c.reach == 0.0; });
