@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <optional>
+#include <utility>
 
 #include "hold_jerk.h"
 #include "screwline/exception.h"
