@@ -17,7 +17,6 @@ constexpr double kMoves = 1e-7;       // A joint whose share of every tangent is
 constexpr double kLimitBand = 1e-9;
 constexpr int kMaxNearestIterations = 30;
 constexpr int kMaxTurnings = 3;
-constexpr int kCoarse = 24;           // Members all the way round that the nearest is looked for from.
 constexpr int kGoldenSteps = 38;      // From a step to 1e-9 of it and less.
 constexpr double kStationary = 1e-6;  // Of the distance, along the continuum.
 
@@ -127,20 +126,6 @@ VectorX goldenNearest(const SerialChain& chain, const Family& family, double ste
   const double nearest = goldenMinimum(distanceAt, center - step, center + step, kGoldenSteps);
   const bool found = family.at(VectorX::Constant(1, nearest), q, member);
   return found && distanceTo(chain, member, seed) < distanceTo(chain, q, seed) ? member : q;
-}
-
-/// Of members all the way round one turn that is free, the nearest to the seed.
-VectorX coarseNearest(const SerialChain& chain, const Family& family, const Candidate& candidate, const VectorX& seed) {
-  VectorX best = candidate.q;
-  const int joint = candidate.free.front();
-  if (candidate.free.size() != 1 || !chain.joint(joint).isRevolute()) return best;
-  VectorX member = best;
-  for (int i = 1; i < kCoarse; ++i) {
-    const VectorX value = VectorX::Constant(1, candidate.q[joint] + kTwoPi * i / kCoarse);
-    if (family.at(value, member, member) && distanceTo(chain, member, seed) < distanceTo(chain, best, seed))
-      best = member;
-  }
-  return best;
 }
 
 bool isStationary(const Family& family, const VectorX& q, const VectorX& seed) {
@@ -265,13 +250,7 @@ Continuum describeContinuum(const SerialChain& chain, const Candidate& candidate
     }
   }
   Continuum continuum;
-  VectorX q = nearestFrom(chain, family, candidate, coarseNearest(chain, family, candidate, seed), seed);
-  // Where a branch breaks off, at another singularity on the way, its end may be nearest: a place that no limit
-  // explains.
-  if (candidate.free.size() == 1 && !isStationary(family, q, seed)) {
-    const VectorX other = nearestFrom(chain, family, candidate, candidate.q, seed);
-    if (isStationary(family, other, seed)) q = other;
-  }
+  VectorX q = nearestFrom(chain, family, candidate, candidate.q, seed);
   if (!ignore_limits && !isWithinLimits(chain, q)) nearestWithinLimits(chain, family, candidate, seed, q);
   continuum.nearest = chooseTurns(chain, q, seed, true, ignore_limits, kLimitBand).q;
   continuum.directions = orthonormalRows(family.tangents(continuum.nearest));

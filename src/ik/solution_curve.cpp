@@ -9,16 +9,11 @@
 namespace screwline {
 namespace {
 
-constexpr int kSamples = 24;          // All the way round,
-constexpr int kEndSamples = 192;      // and where some are missing.
-constexpr double kFar = 0.4;          // [rad; m per characteristic length] from one sample to the next, at most.
 constexpr double kMoves = 1e-7;       // A joint whose range is smaller does not move.
 constexpr double kLimitBand = 1e-9;   // [rad, m]
 constexpr double kDifference = 2e-6;  // Of the period, for tangents.
-constexpr double kFine = 1e-9;        // Of the period.
 constexpr double kValue = 1e-14;      // [rad, m] that a joint's extreme value still gains.
 constexpr int kMostSteps = 12;
-constexpr int kMostBisections = 60;
 
 /// Joints that move along the run.
 std::vector<int> movingJoints(const CurveRun& run) {
@@ -44,104 +39,6 @@ double vertexOf(const CurveSample& a, const CurveSample& b, const CurveSample& c
 }
 
 }  // namespace
-
-CurveSample SolutionCurve::sampleAt(double at, const VectorX& near) const {
-  CurveSample sample{at, near};
-  if (!at_(at, near, sample.q)) sample.q.resize(0);
-  return sample;
-}
-
-bool SolutionCurve::movesFar(const VectorX& a, const VectorX& b) const {
-  for (int i = 0; i < chain_.size(); ++i) {
-    const double unit = chain_.joint(i).isRevolute() ? 1.0 : chain_.characteristicLength();
-    if (std::abs(a[i] - b[i]) > kFar * unit) return true;
-  }
-  return false;
-}
-
-/// Members between two, by halves. Where a joint jumps there is another singularity on the way: a gap.
-void SolutionCurve::refine(const CurveSample& from, const CurveSample& to, std::vector<CurveSample>& samples) const {
-  if (!from.exists() && !to.exists()) return;
-  const bool both = from.exists() && to.exists();
-  if (both && !movesFar(from.q, to.q)) return;
-  if (!both && to.at - from.at < 1.5 * period_ / kEndSamples) return;
-  CurveSample middle = sampleAt(0.5 * (from.at + to.at), from.exists() ? from.q : to.q);
-  if (to.at - from.at < kFine * period_) {
-    middle.q.resize(0);
-    samples.push_back(std::move(middle));
-    return;
-  }
-  refine(from, middle, samples);
-  samples.push_back(middle);
-  refine(middle, to, samples);
-}
-
-std::vector<CurveSample> SolutionCurve::allRound(double start, const VectorX& q) const {
-  std::vector<CurveSample> samples = {{start, q}};
-  samples.reserve(4 * kSamples);
-  CurveSample before = samples.front();
-  VectorX near = q;
-  for (int i = 1; i <= kSamples; ++i) {
-    CurveSample next = sampleAt(start + period_ * i / kSamples, near);
-    refine(before, next, samples);
-    if (next.exists()) near = next.q;
-    samples.push_back(next);
-    before = std::move(next);
-  }
-  return samples;
-}
-
-/// The last member towards `outside`, where there is none. At a jump it is there already; at a fold the joints move
-/// with the root of what is left.
-CurveSample SolutionCurve::endOf(CurveSample inside, double outside) const {
-  if (std::abs(outside - inside.at) < kFine * period_) return inside;
-  for (int i = 0; i < kMostBisections && std::abs(outside - inside.at) > 1e-6 * kFine * period_; ++i) {
-    CurveSample middle = sampleAt(0.5 * (inside.at + outside), inside.q);
-    if (middle.exists()) {
-      inside = std::move(middle);
-    } else {
-      outside = middle.at;
-    }
-  }
-  return inside;
-}
-
-/// Stretches without a gap; the one that goes on beyond the start is put together.
-std::vector<CurveRun> SolutionCurve::runsOf(std::vector<CurveSample> samples) const {
-  const auto gap = std::find_if(samples.begin(), samples.end(), [](const CurveSample& s) { return !s.exists(); });
-  std::vector<CurveRun> runs;
-  if (gap == samples.end()) {
-    runs.push_back({std::move(samples), true});
-  } else {
-    samples.pop_back();  // The first, once more.
-    std::rotate(samples.begin(), samples.begin() + (gap - samples.begin()), samples.end());
-    samples.push_back(samples.front());
-    const double first = samples.front().at;
-    for (CurveSample& sample : samples) sample.at += sample.at < first ? period_ : 0.0;
-    samples.back().at = first + period_;
-    for (std::size_t i = 1; i < samples.size(); ++i) {
-      if (!samples[i].exists()) {
-        if (samples[i - 1].exists()) runs.back().samples.push_back(endOf(samples[i - 1], samples[i].at));
-        continue;
-      }
-      if (!samples[i - 1].exists()) runs.push_back({{endOf(samples[i], samples[i - 1].at)}, false});
-      runs.back().samples.push_back(samples[i]);
-    }
-  }
-  for (CurveRun& run : runs) order(run);
-  // The members in a jump itself are of the continuum that crosses.
-  const auto first_point = std::stable_partition(runs.begin(), runs.end(), [this](const CurveRun& run) {
-    return run.samples.back().at - run.samples.front().at > 2.0 * kFine * period_;
-  });
-  if (first_point != runs.begin()) runs.erase(first_point, runs.end());
-  return runs;
-}
-
-void SolutionCurve::order(CurveRun& run) const {
-  std::stable_sort(run.samples.begin(), run.samples.end(),
-                   [](const CurveSample& a, const CurveSample& b) { return a.at < b.at; });
-  for (std::size_t i = 1; i < run.samples.size(); ++i) bringNear(chain_, run.samples[i - 1].q, run.samples[i].q);
-}
 
 /// Successive parabolas through the three members nearest to where the joint turns back.
 CurveSample SolutionCurve::turningPoint(CurveSample before, CurveSample middle, CurveSample behind, int joint) const {
@@ -336,72 +233,88 @@ void SolutionCurve::walk(const CurveRun& run, const CurveSample& nearest, Contin
   }
 }
 
-Continuum SolutionCurve::describe(double start, const VectorX& q, const VectorX& seed, bool ignore_limits) const {
-  std::vector<CurveRun> runs = runsOf(allRound(start, q));
-  const auto turnedTo = [&](const VectorX& member, bool honour) {
-    return chooseTurns(chain_, member, seed, true, !honour, kLimitBand);
-  };
-  const CurveRun* best_run = nullptr;
-  std::size_t best = 0;
+/// The squared distance to the seed in the nearest turns; no other turns are nearer.
+double SolutionCurve::leastSquare(const VectorX& q, const VectorX& seed) const {
+  double sum = 0.0;
+  for (int i = 0; i < chain_.size(); ++i) {
+    const double apart = std::abs(q[i] - seed[i]);
+    const bool other_turn = apart > kPi && chain_.joint(i).isRevolute();
+    const double d = other_turn ? apart - kTwoPi * std::round(apart / kTwoPi) : apart;
+    sum += d * d;
+  }
+  return sum;
+}
+
+/// Run and number of the sample nearest to the seed; within limits, where they are honoured. False: there is none.
+bool SolutionCurve::nearestSample(const std::vector<CurveRun>& runs, const VectorX& seed, bool honour,
+                                  const CurveRun*& run, std::size_t& number) const {
   double least = std::numeric_limits<double>::infinity();
-  for (CurveRun& run : runs) {
-    addTurningPoints(run);
-    if (!ignore_limits) addLimits(run);
-  }
-  bool honour = !ignore_limits;
-  for (int pass = 0; pass < 2 && best_run == nullptr; ++pass, honour = false) {
-    for (const CurveRun& run : runs) {
-      for (std::size_t i = 0; i < run.samples.size(); ++i) {
-        const VectorX& member = run.samples[i].q;
-        // No turn is nearer than the nearest.
-        double bound = 0.0;
-        for (Eigen::Index k = 0; k < seed.size(); ++k) {
-          const double apart = std::abs(member[k] - seed[k]);
-          const bool turns = chain_.joint(static_cast<int>(k)).isRevolute();
-          const double d = turns && apart > kPi ? apart - kTwoPi * std::round(apart / kTwoPi) : apart;
-          bound += d * d;
-        }
-        if (std::sqrt(bound) >= least) continue;
-        if (honour && !turnedTo(member, true).within_limits) continue;
-        const double distance = honour ? (turnedTo(member, true).q - seed).norm() : std::sqrt(bound);
-        if (distance >= least) continue;
-        least = distance;
-        best_run = &run;
-        best = i;
+  for (const CurveRun& one : runs) {
+    for (std::size_t i = 0; i < one.samples.size(); ++i) {
+      double square = leastSquare(one.samples[i].q, seed);
+      if (square >= least) continue;
+      if (honour) {
+        const Turned turned = chooseTurns(chain_, one.samples[i].q, seed, true, false, kLimitBand);
+        square = (turned.q - seed).squaredNorm();
+        if (!turned.within_limits || square >= least) continue;
       }
+      least = square;
+      run = &one;
+      number = i;
     }
-    if (best_run != nullptr) break;
   }
-  const std::vector<CurveSample>& samples = best_run->samples;
-  const auto neighbour = [&](std::ptrdiff_t i) {
-    const auto last = static_cast<std::ptrdiff_t>(samples.size()) - 1;
-    CurveSample sample = samples[best];
-    if (i >= 0 && i <= last) {
-      sample = samples[static_cast<std::size_t>(i)];
-    } else if (best_run->closed) {
-      sample = samples[static_cast<std::size_t>(i < 0 ? last - 1 : 1)];
-      sample.at += i < 0 ? -period_ : period_;
-    }
-    return honour && !turnedTo(sample.q, true).within_limits ? samples[best].at : sample.at;
+  return std::isfinite(least);
+}
+
+/// Between a sample and its neighbours, those within limits where they are honoured.
+CurveSample SolutionCurve::nearestIn(const CurveRun& run, std::size_t number, const VectorX& seed, bool honour) const {
+  const std::vector<CurveSample>& samples = run.samples;
+  const std::size_t last = samples.size() - 1;
+  const auto bound = [&](const CurveSample& neighbour, double at) {
+    const bool ends = honour && !chooseTurns(chain_, neighbour.q, seed, true, false, kLimitBand).within_limits;
+    return ends ? samples[number].at : at;
   };
-  const auto at = static_cast<std::ptrdiff_t>(best);
-  CurveSample nearest = nearestAbout(samples[best], neighbour(at - 1), neighbour(at + 1), seed, !honour);
+  double from = samples[number].at;
+  double to = from;
+  if (number > 0)
+    from = bound(samples[number - 1], samples[number - 1].at);
+  else if (run.closed)
+    from = bound(samples[last - 1], samples[last - 1].at - period_);
+  if (number < last)
+    to = bound(samples[number + 1], samples[number + 1].at);
+  else if (run.closed)
+    to = bound(samples[1], samples[1].at + period_);
+  CurveSample nearest = nearestAbout(samples[number], from, to, seed, !honour);
   if (nearest.at < samples.front().at || nearest.at > samples.back().at) {
     const double round = nearest.at < samples.front().at ? 1.0 : -1.0;
     nearest.at += round * period_;
     nearest.q += round * (samples.back().q - samples.front().q);
   }
+  return nearest;
+}
+
+Continuum SolutionCurve::describe(double start, const VectorX& q, const VectorX& seed, bool ignore_limits) const {
+  std::vector<CurveRun> runs = runsOf(allRound(start, q));
+  for (CurveRun& run : runs) {
+    addTurningPoints(run);
+    if (!ignore_limits) addLimits(run);
+  }
+  const CurveRun* run = &runs.front();
+  std::size_t number = 0;
+  const bool within = !ignore_limits && nearestSample(runs, seed, true, run, number);
+  if (!within) nearestSample(runs, seed, false, run, number);
+  const CurveSample nearest = nearestIn(*run, number, seed, within);
   Continuum continuum;
-  continuum.nearest = turnedTo(nearest.q, !ignore_limits).q;
-  continuum.directions = tangentAt(*best_run, nearest).normalized().transpose();
-  continuum.free_joints = movingJoints(*best_run);
+  continuum.nearest = chooseTurns(chain_, nearest.q, seed, true, ignore_limits, kLimitBand).q;
+  continuum.directions = tangentAt(*run, nearest).normalized().transpose();
+  continuum.free_joints = movingJoints(*run);
   const auto count = static_cast<Eigen::Index>(continuum.free_joints.size());
   continuum.lower.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     continuum.lower[i] = continuum.nearest[continuum.free_joints[static_cast<std::size_t>(i)]];
   }
   continuum.upper = continuum.lower;
-  walk(*best_run, nearest, continuum);
+  walk(*run, nearest, continuum);
   return continuum;
 }
 

@@ -38,6 +38,9 @@ class SolutionCurve {
   Continuum describe(double start, const VectorX& q, const VectorX& seed, bool ignore_limits) const;
 
  private:
+  static constexpr double kFine = 1e-9;  ///< Of the period.
+  static constexpr int kMostBisections = 60;
+
   CurveSample sampleAt(double at, const VectorX& near) const;
   std::vector<CurveSample> allRound(double start, const VectorX& q) const;
   void refine(const CurveSample& from, const CurveSample& to, std::vector<CurveSample>& samples) const;
@@ -51,6 +54,10 @@ class SolutionCurve {
   CurveSample passing(CurveSample from, CurveSample to, int joint, double value) const;
   CurveSample nearestAbout(const CurveSample& start, double from, double to, const VectorX& seed,
                            bool ignore_limits) const;
+  double leastSquare(const VectorX& q, const VectorX& seed) const;
+  bool nearestSample(const std::vector<CurveRun>& runs, const VectorX& seed, bool honour, const CurveRun*& run,
+                     std::size_t& number) const;
+  CurveSample nearestIn(const CurveRun& run, std::size_t number, const VectorX& seed, bool honour) const;
   VectorX tangentAt(const CurveRun& run, const CurveSample& sample) const;
   void walk(const CurveRun& run, const CurveSample& nearest, Continuum& continuum) const;
 
