@@ -23,23 +23,33 @@ std::vector<Candidate> rootsOf(const AlgebraicSolver& solver, const Pose& target
   return candidates;
 }
 
-VectorX nearestTurns(const SerialChain& chain, VectorX q, const VectorX& reference) {
+void bringNear(const SerialChain& chain, const VectorX& reference, VectorX& q) {
   for (int i = 0; i < chain.size(); ++i) {
-    if (chain.joint(i).isRevolute()) q[i] = reference[i] + std::remainder(q[i] - reference[i], kTwoPi);
+    const double apart = q[i] - reference[i];
+    // The remainder is slow, and most often what it is taken of.
+    if (chain.joint(i).isRevolute() && !(std::abs(apart) <= kPi)) {
+      q[i] = reference[i] + std::remainder(apart, kTwoPi);
+    }
   }
+}
+
+VectorX nearestTurns(const SerialChain& chain, VectorX q, const VectorX& reference) {
+  bringNear(chain, reference, q);
   return q;
 }
 
 namespace {
 
-double jointDifference(const SerialChain& chain, const VectorX& a, const VectorX& b, int i) {
-  const double difference = a[i] - b[i];
-  return std::abs(chain.joint(i).isRevolute() ? std::remainder(difference, kTwoPi) : difference);
+double jointDifference(const SerialChain& chain, const Eigen::Ref<const VectorX>& a, const Eigen::Ref<const VectorX>& b,
+                       int i) {
+  const double difference = std::abs(a[i] - b[i]);
+  return difference > kPi && chain.joint(i).isRevolute() ? std::abs(std::remainder(difference, kTwoPi)) : difference;
 }
 
 }  // namespace
 
-double largestDifference(const SerialChain& chain, const VectorX& a, const VectorX& b) {
+double largestDifference(const SerialChain& chain, const Eigen::Ref<const VectorX>& a,
+                         const Eigen::Ref<const VectorX>& b) {
   double largest = 0.0;
   for (int i = 0; i < chain.size(); ++i) largest = std::max(largest, jointDifference(chain, a, b, i));
   return largest;

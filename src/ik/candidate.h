@@ -44,11 +44,14 @@ Candidate unnamed(const VectorX& q);
 /// Every root of an elimination, unnamed; false in `complete` where some may be missing.
 std::vector<Candidate> rootsOf(const AlgebraicSolver& solver, const Pose& target, bool& complete);
 
-/// q with revolute values brought next to `reference` by full turns.
+/// Brings revolute values next to `reference` by full turns; those that are, stay as they are to the bit.
+void bringNear(const SerialChain& chain, const VectorX& reference, VectorX& q);
+/// q with revolute values brought next to `reference`.
 VectorX nearestTurns(const SerialChain& chain, VectorX q, const VectorX& reference);
 
 /// Largest joint difference, revolute ones modulo full turns.
-double largestDifference(const SerialChain& chain, const VectorX& a, const VectorX& b);
+double largestDifference(const SerialChain& chain, const Eigen::Ref<const VectorX>& a,
+                         const Eigen::Ref<const VectorX>& b);
 
 /// Whether no joint differs by more than kSameSolution, revolute ones modulo full turns.
 bool isSameConfiguration(const SerialChain& chain, const VectorX& a, const VectorX& b);

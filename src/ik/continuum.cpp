@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "screwline/spatial/golden_section.h"
+#include "solution_curve.h"
+#include "solution_line.h"
 #include "turns.h"
 
 namespace screwline {
@@ -15,7 +17,6 @@ constexpr double kMoves = 1e-7;       // A joint whose share of every tangent is
 constexpr double kLimitBand = 1e-9;
 constexpr int kMaxNearestIterations = 30;
 constexpr int kMaxTurnings = 3;
-constexpr int kCoarse = 24;           // Members all the way round that the nearest is looked for from.
 constexpr int kGoldenSteps = 38;      // From a step to 1e-9 of it and less.
 constexpr double kStationary = 1e-6;  // Of the distance, along the continuum.
 
@@ -33,14 +34,17 @@ class Family {
   Family(const SerialChain& chain, const Candidate& candidate) : chain_(chain), candidate_(candidate) {}
 
   bool at(const VectorX& parameters, const VectorX& near, VectorX& q) const {
-    VectorX preferred = near;
+    preferred_ = near;
     for (Eigen::Index i = 0; i < parameters.size(); ++i)
-      preferred[candidate_.free[static_cast<std::size_t>(i)]] = parameters[i];
-    if (!candidate_.member(preferred, q)) return false;
-    q = nearestTurns(chain_, q, near);
-    // The free joints themselves are set, not wrapped.
-    for (int joint : candidate_.free) q[joint] = preferred[joint];
-    return true;
+      preferred_[candidate_.free[static_cast<std::size_t>(i)]] = parameters[i];
+    return atPreferred(near, q);
+  }
+
+  /// The same where one joint is free.
+  bool at(double value, const VectorX& near, VectorX& q) const {
+    preferred_ = near;
+    preferred_[candidate_.free.front()] = value;
+    return atPreferred(near, q);
   }
 
   VectorX parameters(const VectorX& q) const {
@@ -66,8 +70,20 @@ class Family {
   }
 
  private:
+  bool atPreferred(const VectorX& near, VectorX& q) const {
+    // `near` may be `q`.
+    if (!candidate_.member(preferred_, member_)) return false;
+    bringNear(chain_, near, member_);
+    // The free joints themselves are set, not wrapped.
+    for (int joint : candidate_.free) member_[joint] = preferred_[joint];
+    q = member_;
+    return true;
+  }
+
   const SerialChain& chain_;
   const Candidate& candidate_;
+  mutable VectorX preferred_;  ///< Kept for their memory.
+  mutable VectorX member_;
 };
 
 double distanceTo(const SerialChain& chain, const VectorX& q, const VectorX& seed) {
@@ -110,20 +126,6 @@ VectorX goldenNearest(const SerialChain& chain, const Family& family, double ste
   const double nearest = goldenMinimum(distanceAt, center - step, center + step, kGoldenSteps);
   const bool found = family.at(VectorX::Constant(1, nearest), q, member);
   return found && distanceTo(chain, member, seed) < distanceTo(chain, q, seed) ? member : q;
-}
-
-/// Of members all the way round one turn that is free, the nearest to the seed.
-VectorX coarseNearest(const SerialChain& chain, const Family& family, const Candidate& candidate, const VectorX& seed) {
-  VectorX best = candidate.q;
-  const int joint = candidate.free.front();
-  if (candidate.free.size() != 1 || !chain.joint(joint).isRevolute()) return best;
-  VectorX member = best;
-  for (int i = 1; i < kCoarse; ++i) {
-    const VectorX value = VectorX::Constant(1, candidate.q[joint] + kTwoPi * i / kCoarse);
-    if (family.at(value, member, member) && distanceTo(chain, member, seed) < distanceTo(chain, best, seed))
-      best = member;
-  }
-  return best;
 }
 
 bool isStationary(const Family& family, const VectorX& q, const VectorX& seed) {
@@ -237,14 +239,18 @@ MatrixX orthonormalRows(const MatrixX& rows) {
 Continuum describeContinuum(const SerialChain& chain, const Candidate& candidate, const VectorX& seed,
                             bool ignore_limits) {
   const Family family(chain, candidate);
-  Continuum continuum;
-  VectorX q = nearestFrom(chain, family, candidate, coarseNearest(chain, family, candidate, seed), seed);
-  // Where a branch breaks off, at another singularity on the way, its end may be nearest: a place that no limit
-  // explains.
-  if (candidate.free.size() == 1 && !isStationary(family, q, seed)) {
-    const VectorX other = nearestFrom(chain, family, candidate, candidate.q, seed);
-    if (isStationary(family, other, seed)) q = other;
+  if (candidate.free.size() == 1) {
+    const auto at = [&](double value, const VectorX& near, VectorX& q) { return family.at(value, near, q); };
+    const std::optional<Continuum> line =
+        describeLine(chain, at, candidate.q, candidate.free.front(), seed, ignore_limits);
+    if (line) return *line;
+    const int joint = candidate.free.front();
+    if (chain.joint(joint).isRevolute()) {
+      return SolutionCurve(chain, at, kTwoPi).describe(candidate.q[joint], candidate.q, seed, ignore_limits);
+    }
   }
+  Continuum continuum;
+  VectorX q = nearestFrom(chain, family, candidate, candidate.q, seed);
   if (!ignore_limits && !isWithinLimits(chain, q)) nearestWithinLimits(chain, family, candidate, seed, q);
   continuum.nearest = chooseTurns(chain, q, seed, true, ignore_limits, kLimitBand).q;
   continuum.directions = orthonormalRows(family.tangents(continuum.nearest));

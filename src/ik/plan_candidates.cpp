@@ -15,7 +15,7 @@ bool memberOf(const ClosedFormPlan& plan, const SerialChain& chain, const Pose& 
   double least = std::numeric_limits<double>::infinity();
   for (const PlanSolution& solution : solutions) {
     if (solution.free != kin.free || solution.sign != kin.sign || solution.rank != kin.rank) continue;
-    const VectorX member = jointsOf(solution, chain.size());
+    const Eigen::Map<const VectorX> member(solution.q.data(), chain.size());
     const double difference = largestDifference(chain, member, preferred);
     if (difference >= least) continue;
     least = difference;

@@ -5,19 +5,15 @@
 #include <limits>
 
 #include "screwline/spatial/rotation.h"
-#include "turns.h"
+#include "solution_curve.h"
 
 namespace screwline {
 namespace {
 
 constexpr int kSamples = 180;         // Of the free joint's turn, where branches are looked for.
-constexpr int kArcSamples = 64;       // Of each arc, where the nearest member is looked for.
 constexpr double kPoint = 1e-9;       // [rad] An arc that is shorter is a point.
+constexpr double kOffFolds = 0.0137;  // Of the way round: no sample at a place where arcs meet.
 constexpr double kSameEnd = 1e-5;     // [rad] Ends of arcs are folds, known to the square root of rounding.
-constexpr double kDifference = 1e-5;  // Of the way round, for tangents.
-constexpr double kMoves = 1e-7;       // A joint whose share of the tangent is below does not move.
-constexpr double kLimitBand = 1e-9;
-constexpr double kGolden = 0.61803398874989485;
 
 /// Solutions with only `joint` free and set to `value`.
 class Sheets {
@@ -207,97 +203,12 @@ VectorX SolutionLoop::at(double u, const VectorX& near) const {
 }
 
 Continuum SolutionLoop::describe(const VectorX& seed, bool ignore_limits) const {
-  const int count = kArcSamples * static_cast<int>(arcs_.size());
-  const auto distanceAt = [&](double u, bool honour) {
-    const Turned turned = chooseTurns(*chain_, at(u, seed), seed, true, !honour, kLimitBand);
-    if (honour && !turned.within_limits) return std::numeric_limits<double>::infinity();
-    return (turned.q - seed).norm();
-  };
-  double best = 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  bool honour = !ignore_limits;
-  for (int pass = 0; pass < 2 && !std::isfinite(least); ++pass, honour = false) {
-    for (int i = 0; i < count; ++i) {
-      const double distance = distanceAt(static_cast<double>(i) / count, honour);
-      if (distance >= least) continue;
-      least = distance;
-      best = static_cast<double>(i) / count;
-    }
-    if (!std::isfinite(least)) continue;
-    double low = best - 1.0 / count;
-    double high = best + 1.0 / count;
-    while (high - low > 1e-11) {
-      const double a = high - kGolden * (high - low);
-      const double b = low + kGolden * (high - low);
-      const double at_a = distanceAt(a, honour);
-      const double at_b = distanceAt(b, honour);
-      // Where both are beyond a limit the way back is towards what was within.
-      const bool lower = std::isfinite(at_a) || std::isfinite(at_b) ? at_a <= at_b : best < a;
-      (lower ? high : low) = lower ? b : a;
-    }
-    const double refined = 0.5 * (low + high);
-    if (distanceAt(refined, honour) <= least) best = refined;
-    break;
-  }
-  Continuum continuum;
-  continuum.nearest = chooseTurns(*chain_, at(best, seed), seed, true, ignore_limits, kLimitBand).q;
-  const VectorX ahead = at(best + kDifference, continuum.nearest);
-  const VectorX behind = at(best - kDifference, continuum.nearest);
-  continuum.directions = (ahead - behind).normalized().transpose();
-  std::vector<double> us;
-  for (int i = 0; i <= count; ++i) us.push_back(best + static_cast<double>(i) / count);
-  widen(us, continuum.nearest, ignore_limits, continuum);
-  return continuum;
-}
-
-/// Ranges of the joints, from the nearest member both ways until a limit is met.
-void SolutionLoop::widen(const std::vector<double>& us, const VectorX& nearest, bool ignore_limits,
-                         Continuum& continuum) const {
-  VectorX lower = nearest;
-  VectorX upper = nearest;
-  const auto isInside = [&](const VectorX& q) {
-    if (ignore_limits) return true;
-    for (int i = 0; i < 6; ++i) {
-      const JointLimits& limits = chain_->joint(i).limits;
-      if (q[i] < limits.lower - kLimitBand || q[i] > limits.upper + kLimitBand) return false;
-    }
+  const auto member = [this](double u, const VectorX& near, VectorX& q) {
+    q = at(u, near);
     return true;
   };
-  for (int way : {1, -1}) {
-    VectorX inside = nearest;
-    double u = us.front();
-    for (std::size_t i = 1; i < us.size(); ++i) {
-      const double next_u = us.front() + way * (us[i] - us.front());
-      const VectorX next = at(next_u, inside);
-      if (isInside(next)) {
-        inside = next;
-        u = next_u;
-        lower = lower.cwiseMin(inside);
-        upper = upper.cwiseMax(inside);
-        continue;
-      }
-      double outside = next_u;
-      while (std::abs(outside - u) > 1e-12) {
-        const VectorX middle = at(0.5 * (u + outside), inside);
-        const bool good = isInside(middle);
-        (good ? u : outside) = 0.5 * (u + outside);
-        if (good) inside = middle;
-      }
-      lower = lower.cwiseMin(inside);
-      upper = upper.cwiseMax(inside);
-      break;
-    }
-  }
-  for (int i = 0; i < 6; ++i) {
-    if (upper[i] - lower[i] <= kMoves) continue;
-    const JointLimits& limits = chain_->joint(i).limits;
-    continuum.free_joints.push_back(i);
-    const auto size = static_cast<Eigen::Index>(continuum.free_joints.size());
-    continuum.lower.conservativeResize(size);
-    continuum.upper.conservativeResize(size);
-    continuum.lower[size - 1] = ignore_limits ? lower[i] : std::max(lower[i], limits.lower);
-    continuum.upper[size - 1] = ignore_limits ? upper[i] : std::min(upper[i], limits.upper);
-  }
+  // In a fold itself members are known to the root of rounding only: too little for a tangent.
+  return SolutionCurve(*chain_, member, 1.0).describe(kOffFolds, at(kOffFolds, seed), seed, ignore_limits);
 }
 
 }  // namespace screwline

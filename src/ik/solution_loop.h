@@ -30,13 +30,10 @@ class SolutionLoop {
   /// Member at u in [0, 1] of the way round (any u: it goes on), revolute values in the turns next to `near`.
   VectorX at(double u, const VectorX& near) const;
 
-  /// Member nearest to the seed (of those within limits, where there are any), tangent, range of its joints within
-  /// limits. The nearest of 64 samples per arc, refined to 1e-9 of the way.
+  /// As SolutionCurve does, over the way round.
   Continuum describe(const VectorX& seed, bool ignore_limits) const;
 
  private:
-  void widen(const std::vector<double>& us, const VectorX& nearest, bool ignore_limits, Continuum& continuum) const;
-
   const ParallelPlan* plan_;
   const SerialChain* chain_;
   Pose target_;

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "ik_arms.h"
 #include "ik_gate.h"
@@ -195,6 +197,76 @@ TEST(AlwaysSingular, ArmsAreAnswered) {
                                       << "\n  q = " << q.transpose();
     }
   }
+}
+
+/// Follows a continuum by its tangents, small steps brought back to the pose, both ways until a joint breaks a limit or
+/// the start is met again: knows of no closed form. Lowest and highest values of all joints.
+void follow(const SerialChain& chain, const Pose& target, const VectorX& start, VectorX& lower, VectorX& upper) {
+  constexpr double kStep = 4e-3;
+  lower = upper = start;
+  Matrix6X J;
+  for (double way : {1.0, -1.0}) {
+    VectorX q = start;
+    VectorX ahead;
+    for (int k = 0; k < 20000; ++k) {
+      geometricJacobian(chain, q, J);
+      VectorX tangent = Svd(MatrixX(J), Eigen::ComputeFullV).matrixV().col(5);
+      if (k == 0) ahead = way * tangent;
+      tangent *= tangent.dot(ahead) < 0.0 ? -1.0 : 1.0;
+      VectorX next = q + kStep * tangent;
+      for (int newton = 0; newton < 2; ++newton) {
+        const Pose tip = geometricJacobian(chain, next, J);
+        Eigen::CompleteOrthogonalDecomposition<MatrixX> solver;
+        solver.setThreshold(1e-2 * kStep);
+        next += solver.compute(J).solve(taskError(Task(), target, tip).twist);
+      }
+      ahead = tangent;
+      double share = 1.0;
+      for (int i = 0; i < chain.size(); ++i) {
+        const JointLimits& limits = chain.joint(i).limits;
+        const double limit = next[i] > q[i] ? limits.upper : limits.lower;
+        if (next[i] > limits.upper || next[i] < limits.lower)
+          share = std::min(share, (limit - q[i]) / (next[i] - q[i]));
+      }
+      next = q + share * (next - q);
+      lower = lower.cwiseMin(next);
+      upper = upper.cwiseMax(next);
+      if (share < 1.0 || (k > 10 && test::jointDifference(chain, next, start) < kStep)) break;
+      q = next;
+    }
+  }
+}
+
+TEST(ContinuumRanges, AreThoseMetOnTheWay) {
+  int compared = 0;
+  for (const auto& [name, way] : {std::pair<const char*, const char*>{"kr6_r900", "shoulder"},
+                                  {"irb6640", "shoulder"},
+                                  {"stanford_arm", "extension"},
+                                  {"stanford_arm", "wrist"},
+                                  {"ur5", "wrist"}}) {
+    const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, name);
+    const InverseKinematics ik(robot.chain, robot.task);
+    SingularPoses maker(robot.chain, kSeed);
+    for (const SingularKind& kind : test::singularKindsOf(robot.chain, robot.task)) {
+      if (kind.name != way) continue;
+      const VectorX q = *maker.make(kind, 0.0);
+      const IkRequest request = IkGate(ik, q, false).request();
+      for (const IkAnswer& answer : ik.solve(request).solutions) {
+        if (answer.self_motion.rows() != 1) continue;
+        VectorX lower;
+        VectorX upper;
+        follow(robot.chain, request.target, answer.position, lower, upper);
+        for (std::size_t k = 0; k < answer.free_joints.size(); ++k) {
+          const int i = answer.free_joints[k];
+          const auto at = static_cast<Eigen::Index>(k);
+          EXPECT_NEAR(answer.self_motion_lower[at], lower[i], 1e-4) << name << ' ' << way << ", joint " << i;
+          EXPECT_NEAR(answer.self_motion_upper[at], upper[i], 1e-4) << name << ' ' << way << ", joint " << i;
+          ++compared;
+        }
+      }
+    }
+  }
+  EXPECT_GT(compared, 10);
 }
 
 TEST(SingularPosesMaker, TheSearchSeesWhatOneBranchLeavesOut) {

@@ -186,8 +186,8 @@ TEST(IkRequest, AContinuumTellsItsRangeWithinLimits) {
   EXPECT_NEAR(solution.position[0], 0.2, 1e-9);  // The member nearest to the seed.
   EXPECT_NEAR(solution.position[2], 0.2, 1e-9);
   ASSERT_EQ(solution.free_joints, (std::vector<int>{0, 2}));
-  EXPECT_NEAR(solution.self_motion_lower[0], -0.6, 1e-8);
-  EXPECT_NEAR(solution.self_motion_upper[0], 1.0, 1e-8);
+  EXPECT_NEAR(solution.self_motion_lower[0], -0.6, 1e-12);
+  EXPECT_NEAR(solution.self_motion_upper[0], 1.0, 1e-12);
   EXPECT_NEAR(std::abs(solution.self_motion(0, 0) + solution.self_motion(0, 2)), 0.0, 1e-9);
 }
 
