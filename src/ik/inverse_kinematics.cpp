@@ -15,6 +15,7 @@
 #include "screwline/ik/branch_name.h"
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/kinematics/singularity.h"
+#include "searched_continua.h"
 #include "self_motion_answers.h"
 #include "solution_builder.h"
 #include "turns.h"
@@ -26,6 +27,14 @@ constexpr int kClosestRestarts = 256;  // Starts for the best reachable configur
 
 constexpr int kDoubtRestarts = 16;
 constexpr double kAlmostSingular = 1e-3;  // Manipulability, lengths in the chain's, below which solutions may meet.
+
+/// Not special in any way.
+VectorX someConfiguration(const SerialChain& chain) {
+  VectorX q(chain.size());
+  for (Eigen::Index i = 0; i < q.size(); ++i)
+    q[i] = 0.3 + 0.37 * static_cast<double>(i) + 0.11 * std::sin(7.0 * static_cast<double>(i));
+  return q;
+}
 
 bool isNearer(const IkAnswer& a, const IkAnswer& b) {
   if (a.distance != b.distance) return a.distance < b.distance;
@@ -65,6 +74,7 @@ struct InverseKinematics::Implementation {
     method = algebraic   ? algebraic->method()
              : redundant ? redundant->method()
                          : "numerical search (Levenberg-Marquardt from many starts)";
+    moves_everywhere = taskRank(taskJacobian(chain, someConfiguration(chain), task)).rank < chain.size();
   }
 
   bool isExact() const { return plan || parallel || completed || algebraic || (redundant && redundant->closedForm()); }
@@ -93,7 +103,8 @@ struct InverseKinematics::Implementation {
   std::optional<NearlyIdeal> nearly_ideal;  ///< Beside `algebraic`.
   std::optional<SelfMotionSolver> redundant;
   std::string method;
-  double almost_singular;  ///< Manipulability below which solutions may meet.
+  bool moves_everywhere = false;  ///< Every solution of a searched chain is a member of a continuum.
+  double almost_singular;         ///< Manipulability below which solutions may meet.
 };
 
 std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkRequest& request,
@@ -138,6 +149,9 @@ std::vector<Candidate> InverseKinematics::Implementation::withSearched(const IkR
   options.descent.rotation_weight = request.rotation_weight;
   options.timeout = request.timeout;
   options.max_solutions = request.max_solutions;
+  if (moves_everywhere && (request.max_solutions == 0 || request.max_solutions > kMostMembers)) {
+    options.max_solutions = kMostMembers;  // All that is met are members of continua.
+  }
   const SearchResult search_result = search(chain, task, request.target, {builder.seed()}, options);
   result.timed_out = search_result.timed_out;
   for (const VectorX& q : search_result.solutions) {
@@ -159,8 +173,13 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vect
       if (algebraic || parallel || completed || (plan && plan->task.size() == task.size())) all = false;
       continue;
     }
-    if (chain.size() > task.size() && answer->self_motion.rows() == 0) describeRedundancy(chain, task, *answer);
     answers.push_back(std::move(*answer));
+  }
+  if (!isExact() || !result.complete) {
+    answers = joinSearchedContinua(chain, task, request, builder, std::move(answers));
+  }
+  for (IkAnswer& answer : answers) {
+    if (chain.size() > task.size() && answer.self_motion.rows() == 0) describeRedundancy(chain, task, answer);
   }
   if ((plan || completed || algebraic) && chain.size() == task.size()) {
     const bool told = completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers);

@@ -61,6 +61,10 @@ std::optional<IkAnswer> SolutionBuilder::build(Candidate candidate) const {
   return solution;
 }
 
+double SolutionBuilder::timeLeft() const {
+  return request_.timeout - std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
 IkAnswer SolutionBuilder::describe(const VectorX& q) const {
   IkAnswer solution;
   solution.position = q;

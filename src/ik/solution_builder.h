@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_SRC_IK_SOLUTION_BUILDER_H
 #define SCREWLINE_SRC_IK_SOLUTION_BUILDER_H
 
+#include <chrono>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,8 @@ class SolutionBuilder {
   SolutionBuilder(const SerialChain& chain, const Task& task, const IkRequest& request);
 
   const VectorX& seed() const { return seed_; }
+  /// [s] of the request's timeout.
+  double timeLeft() const;
   bool hasSeed() const { return request_.seed.size() > 0; }
 
   /// Refines, verifies by forward kinematics, chooses turns, describes continua. Empty where the candidate is no
@@ -35,6 +38,7 @@ class SolutionBuilder {
   const Task& task_;
   const IkRequest& request_;
   VectorX seed_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   mutable Matrix6X jacobian_;    ///< Of the configuration verified last. A builder serves one request, in one thread.
   mutable Matrix3 orientation_;  ///< Its tip's.
 };

@@ -140,7 +140,7 @@ std::string classOf(const InverseKinematics& ik) {
 }
 
 TEST(RandomUrdfLaw, EveryDocumentIsReadDescribedAndSolved) {
-  const unsigned count = test::wished("SCREWLINE_URDFS", 600);
+  const unsigned count = test::wished("SCREWLINE_URDFS", 400);
   const unsigned first = test::wished("SCREWLINE_SEED", 1);
   std::map<std::string, Tally> tallies;
   int not_found = 0;

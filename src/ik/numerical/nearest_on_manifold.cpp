@@ -15,7 +15,7 @@ constexpr double kReturned = 1e-13;     ///< [m, rad] error with which they may 
 constexpr double kOnTask = 1e-11;       ///< [m, rad] error that a step may end with.
 constexpr double kLongestStep = 0.5;    ///< [rad], [m]
 constexpr double kShortestStep = 1e-9;  ///< Share of a step, below which none is nearer.
-constexpr double kSufficient = 1e-4;    ///< Of what the gradient promises (Armijo).
+constexpr double kSufficient = 0.2;  ///< Of what the gradient promises (Armijo): a step twice too long gains nothing.
 constexpr double kRank = 1e-10;
 constexpr double kAtBound = 1e-7;  ///< [rad], [m] that Newton steps may leave to a limit.
 constexpr double kStill = 1e-6;    ///< [rad], [m]
@@ -156,7 +156,7 @@ NearestResult nearestOnManifold(const SerialChain& chain, const Task& task, cons
   Walk walk(chain, task, target, seed, options.honour_limits);
   NearestResult result;
   const bool begun = walk.begin(start);
-  double share = 1.0;
+  double share = 0.5;
   for (; begun && result.iterations < options.max_iterations; ++result.iterations) {
     const VectorX way = walk.direction();
     const double longest = way.cwiseAbs().maxCoeff();
