@@ -204,7 +204,7 @@ TEST(Ranges, FastJointsBesideSlowOnes) {
     PlanRequest r = request("time_optimal", way, limitsOf(3, 1.0, 4.0, 40.0));
     r.sample_period = 1e6;
     for (VectorX* limits : {&r.limits.velocity, &r.limits.acceleration, &r.limits.jerk}) {
-      for (double& limit : *limits) limit = std::pow(10.0, uniform(-5.0, 5.0));
+      *limits = VectorX::NullaryExpr(limits->size(), [&] { return std::pow(10.0, uniform(-5.0, 5.0)); });
     }
     EXPECT_EQ(messageOf(r), "") << "seed " << kSeed << ", trial " << trial;
   }
