@@ -107,14 +107,20 @@ Eliminated Elimination::solveWith(const Pencil& pencil, const LoopSystem& system
     if (isAtInfinity(at_root)) continue;
     int place = refiner.add(configurationOf(system, angle, at_root));
     const auto isNew = [&taken](int found) { return found >= 0 && !taken[static_cast<std::size_t>(found)]; };
+    bool has_other = false;
     if (root.touching || !isNew(place)) {
       const LoopSystem::Coefficients equations = system.at({std::cos(0.5 * angle), std::sin(0.5 * angle)});
       for (const std::array<JointParameter, 3>& unknowns : pencil.doubleUnknownsAt(angle, equations)) {
         const int other = refiner.add(configurationOf(system, angle, unknowns));
-        if (isNew(other)) place = other;
+        has_other = has_other || (other >= 0 && place >= 0 && other != place);
+        if (isNew(other) || place < 0) place = other;
       }
     }
-    if (root.touching) continue;
+    if (root.touching) {
+      // A double root of the hidden angle stands for two solutions, or for one that is double itself.
+      all_found = all_found && (place < 0 || has_other || !refiner.isRegular(place));
+      continue;
+    }
     if (isNew(place)) {
       taken[static_cast<std::size_t>(place)] = true;
     } else {

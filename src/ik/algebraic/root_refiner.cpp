@@ -7,6 +7,7 @@
 
 #include "screwline/kinematics/kernel_sweep.h"
 #include "screwline/spatial/rotation.h"
+#include "screwline/spatial/small_svd.h"
 #include "singular_matrix.h"
 
 namespace screwline {
@@ -20,6 +21,7 @@ constexpr double kSame = 1e-6;           ///< [rad], [lengths]
 constexpr double kMaybeSame = 1e-3;      ///< Closer than this, the middle decides.
 constexpr double kNearSingular = 1e-3;   ///< Pivot ratio below which a mate is looked for.
 constexpr double kFarthestMate = 0.5;    ///< [rad], [lengths]
+constexpr double kRegular = 1e-3;        ///< Least over largest singular value above which a solution is not double.
 constexpr double kSingular = 1e-6;       ///< Singular value below which a continuum is looked for.
 constexpr double kContinuumStep = 1e-2;  ///< [rad], [lengths]
 
@@ -118,6 +120,13 @@ bool RootRefiner::isSame(const Vector6& a, const Vector6& b) const {
   Point point;
   evaluate(middle, point);
   return point.error <= 8.0 * kExact;
+}
+
+bool RootRefiner::isRegular(int place) const {
+  Point point;
+  evaluate(Eigen::Map<const Vector6>(solutions_.q[static_cast<std::size_t>(place)].data()), point);
+  const SmallVector sigma = SmallSvd(point.J).sigma;
+  return sigma[5] > kRegular * sigma[0];
 }
 
 int RootRefiner::insert(const Vector6& q) {

@@ -15,6 +15,8 @@ class RootRefiner {
   /// that it almost meets.
   /// Returns its place in the set, new or known; -1 where there is no solution near.
   int add(Vector6 q);
+  /// Whether no other solution is about to meet the one at `place`.
+  bool isRegular(int place) const;
   /// Looks for self-motions through the solutions that are singular, and sets `degenerate`.
   void findContinua();
 
