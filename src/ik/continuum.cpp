@@ -14,7 +14,6 @@ namespace {
 constexpr double kDifference = 1e-5;  // [rad, m] step of the central differences.
 constexpr double kStep = kPi / 90.0;  // [rad] along a continuum.
 constexpr double kMoves = 1e-7;       // A joint whose share of every tangent is below does not move.
-constexpr double kLimitBand = 1e-9;
 constexpr int kMaxNearestIterations = 30;
 constexpr int kMaxTurnings = 3;
 constexpr int kGoldenSteps = 38;      // From a step to 1e-9 of it and less.

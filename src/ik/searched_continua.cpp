@@ -17,7 +17,6 @@ constexpr double kEnd = 1e-4;     // [rad, m] of a projected gradient: the range
 constexpr double kFarAway = 1e3;  // [rad, m]
 constexpr int kStepsToEnd = 80;
 constexpr double kTogether = 1e-5;  // [rad, m] A walk that ends so near has arrived.
-constexpr double kFree = 1e-6;      // Share of a direction.
 
 /// Walks along the pose's own solutions.
 class Walks {
@@ -36,16 +35,11 @@ class Walks {
     return (towards(from, near) - near).cwiseAbs().maxCoeff() <= kTogether;
   }
 
-  /// Orthonormal rows along which the pose is left alone to first order.
-  MatrixX directions(const VectorX& q) const {
+  /// Whether the pose is left alone along a direction for more than to first order.
+  bool isMember(const VectorX& q) const {
     Matrix6X J;
     const Pose tip = geometricJacobian(chain_, q, J);
-    return taskRank(task_.select(J, tip.R), jacobianNoise(J)).self_motions;
-  }
-
-  /// Whether it is along one of them for more than that.
-  bool isMember(const VectorX& q) const {
-    const MatrixX rows = directions(q);
+    const MatrixX rows = taskRank(task_.select(J, tip.R), jacobianNoise(J)).self_motions;
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
       const VectorX step = kTrial * rows.row(i).transpose();
       const auto moves = [&](const VectorX& goal) { return (towards(q, goal) - q).norm() > 0.5 * kTrial; };
@@ -84,14 +78,6 @@ class Walks {
   NearestOptions options_;
 };
 
-void setDirections(const MatrixX& directions, IkAnswer& answer) {
-  answer.self_motion = directions;
-  answer.free_joints.clear();
-  for (Eigen::Index i = 0; i < directions.cols() && directions.rows() > 0; ++i) {
-    if (directions.col(i).cwiseAbs().maxCoeff() > kFree) answer.free_joints.push_back(static_cast<int>(i));
-  }
-}
-
 }  // namespace
 
 std::vector<IkAnswer> joinSearchedContinua(const SerialChain& chain, const Task& task, const IkRequest& request,
@@ -106,19 +92,20 @@ std::vector<IkAnswer> joinSearchedContinua(const SerialChain& chain, const Task&
       continue;
     }
     if (!continua.empty() && (++members > kMostMembers || builder.timeLeft() <= 0.0)) continue;
-    const auto isOf = [&](const VectorX& q) {
-      return [&walks, &q](const IkAnswer& other) { return walks.arrive(q, other.position); };
+    const auto isKnown = [&](const VectorX& q) {
+      return std::any_of(continua.begin(), continua.end(),
+                         [&](const IkAnswer& other) { return walks.arrive(q, other.position); });
     };
-    if (std::any_of(continua.begin(), continua.end(), isOf(answer.position))) continue;
+    if (isKnown(answer.position)) continue;
     const VectorX goal = nearestTurns(chain, builder.seed(), answer.position);
     Candidate nearest = unnamed(walks.towards(answer.position, goal));
     nearest.branch = answer.branch;
-    if (std::any_of(continua.begin(), continua.end(), isOf(nearest.q))) continue;
+    if (isKnown(nearest.q)) continue;
     std::optional<IkAnswer> one = builder.build(std::move(nearest));
     continua.push_back(one ? std::move(*one) : std::move(answer));
   }
   for (IkAnswer& continuum : continua) {
-    setDirections(walks.directions(continuum.position), continuum);
+    describeRedundancy(chain, task, continuum);
     walks.explore(continuum);
   }
   std::move(continua.begin(), continua.end(), std::back_inserter(isolated));

@@ -10,7 +10,6 @@ namespace screwline {
 namespace {
 
 constexpr double kMoves = 1e-7;       // A joint whose range is smaller does not move.
-constexpr double kLimitBand = 1e-9;   // [rad, m]
 constexpr double kDifference = 2e-6;  // Of the period, for tangents.
 constexpr double kValue = 1e-14;      // [rad, m] that a joint's extreme value still gains.
 constexpr int kMostSteps = 12;

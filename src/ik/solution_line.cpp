@@ -9,8 +9,7 @@
 namespace screwline {
 namespace {
 
-constexpr double kStraight = 1e-11;  // [rad, m] by which members may be off the line.
-constexpr double kLimitBand = 1e-9;
+constexpr double kStraight = 1e-11;   // [rad, m] by which members may be off the line.
 constexpr double kMostSlide = 100.0;  // Characteristic lengths that a slide without limits is said to go.
 
 /// Rates of all joints for the free one's 1; empty where the continuum is not straight.

@@ -10,6 +10,9 @@ namespace screwline {
 /// Turns beyond this many for one solution are refused (all_turns on wide limits).
 constexpr std::size_t kMaxTurns = 10000;
 
+/// [rad, m] Members of continua are held against limits no finer than this.
+constexpr double kLimitBand = 1e-9;
+
 /// A configuration with its revolute values brought to the turns asked for.
 struct Turned {
   VectorX q;

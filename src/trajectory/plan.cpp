@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "screwline/exception.h"
@@ -16,11 +17,12 @@ namespace {
 constexpr double kDefaultPeriod = 0.01;
 constexpr double kMostSamples = 1e6;
 
-/// @param why what makes it so long.
-void requireSampleCount(double duration, double period, const std::string& why = "") {
+/// @param why what makes it so long; asked only where it is too long.
+void requireSampleCount(double duration, double period, const std::function<std::string()>& why = {}) {
   if (duration / period <= kMostSamples) return;
   throw InputError(AnswerCode::kTooLarge, "a duration of " + number(duration) + " s at sample_period " +
-                                              number(period) + " s makes more than 1000000 samples" + why);
+                                              number(period) + " s makes more than 1000000 samples" +
+                                              (why ? why() : std::string()));
 }
 
 /// The limit that asks for a motion's length, where one does.
@@ -115,7 +117,8 @@ PlanResult planAsGiven(const PlanRequest& request, const Profile& profile) {
   if (draft.waypoints.empty()) {
     for (const PathPoint& waypoint : request.waypoints) draft.waypoints.push_back(waypoint.position);
   }
-  requireSampleCount(draft.trajectory.duration(), period, tightestLimit(draft.trajectory, context.limits));
+  requireSampleCount(draft.trajectory.duration(), period,
+                     [&] { return tightestLimit(draft.trajectory, context.limits); });
   requirePositionBounds(draft.trajectory, context.limits, request.profile);
   verifyDraft(context, draft);
   noteInfiniteOrders(draft.trajectory, request.profile, draft.notes);

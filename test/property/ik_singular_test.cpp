@@ -70,8 +70,7 @@ TEST_P(SingularLaws, EveryPoseIsAnsweredAndNoBranchLost) {
   EXPECT_LE(lost, asked / 500);
 }
 
-/// Every robot with as many joints as rows. With more poses than one of each kind and offset a few are seen where the
-/// law does not hold: benchmark/singular_sweep counts them.
+/// Every robot with as many joints as rows.
 const char* const kHeld[] = {"rr_planar",     "rrr_planar",   "planar_3r", "rrr_articulated", "rrr_orthogonal",
                              "rrp_spherical", "rrp_offset",   "scara",     "rpp_cylindrical", "spherical_wrist",
                              "orienting_3r",  "prrr_arm",     "scara_600", "prrr_column",     "youbot_arm",

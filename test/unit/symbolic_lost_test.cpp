@@ -283,7 +283,6 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Robots,
                          testing::Values("puma560", "stanford_arm", "kr6_r900", "ur5", "youbot_arm", "scara_600",
                                          "spherical_wrist", "orienting_3r", "rpp_cylindrical", "rrp_offset"));
 
-/// Virtual work: tau . qd = F . V, with the power of the tip's twist.
 /// The product of the cosines of as many joints.
 TrigPolynomial cosines(int count) {
   std::vector<std::vector<int>> groups;
@@ -303,6 +302,7 @@ TEST(SymbolicLost, WhatIsLongOverHalfAnglesIsToldWithoutWritingItOut) {
   EXPECT_FALSE(isShortInHalfAngles(cosines(40), 300));  // 2^40 terms
 }
 
+/// Virtual work: tau . qd = F . V, with the power of the tip's twist.
 TEST(SymbolicStatics, DoesTheWorkOfTheTip) {
   for (const char* name : {"rr_planar", "rrp_offset", "scara", "puma560", "stanford_arm"}) {
     SCOPED_TRACE(name);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <random>
 
 #include "property/cartesian_support.h"
+#include "property/trajectory_random.h"
 #include "screwline/trajectory/format.h"
 #include "unit/trajectory_support.h"
 
@@ -17,6 +17,7 @@ namespace {
 using trajectory_test::jointProfiles;
 using trajectory_test::limitsOf;
 using trajectory_test::messageOf;
+using trajectory_test::Random;
 using trajectory_test::request;
 using trajectory_test::vector;
 
@@ -169,17 +170,14 @@ TEST(Ranges, CartesianFieldsTakeNumbersOnly) {
 /// A duration that an answer gives can be asked for, and every longer one.
 TEST(Ranges, TheShortestDurationAndLongerOnesAreFeasible) {
   constexpr unsigned kSeed = 5;
-  std::mt19937 random(kSeed);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
+  Random random(kSeed);
   for (int trial = 0; trial < 12; ++trial) {
     for (const auto& profile : jointProfiles()) {
       if (profile.name == "sinusoidal") continue;
       const int joints = 1 + trial % 3;
       const int count = isVia(profile.name) ? 3 : takesMany(profile.name) ? 2 + trial % 4 : 2;
       std::vector<VectorX> way;
-      for (int k = 0; k < count; ++k) way.push_back(VectorX::NullaryExpr(joints, [&] { return uniform(-2.0, 2.0); }));
+      for (int k = 0; k < count; ++k) way.push_back(random.vector(joints, -2.0, 2.0));
       PlanRequest r = request(profile.name, way, limitsOf(joints, 1.0, 4.0, 40.0));
       const double shortest = plan(r).trajectory.duration();
       for (double factor : {1.0, 1.0 + 1e-12, 1.0 + 1e-9, 1.0001, 1.5, 10.0}) {
@@ -194,17 +192,14 @@ TEST(Ranges, TheShortestDurationAndLongerOnesAreFeasible) {
 /// they are made longer.
 TEST(Ranges, FastJointsBesideSlowOnes) {
   constexpr unsigned kSeed = 6;
-  std::mt19937 random(kSeed);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
+  Random random(kSeed);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<VectorX> way;
-    for (int k = 0; k < 2 + trial % 3; ++k) way.push_back(VectorX::NullaryExpr(3, [&] { return uniform(-3.0, 3.0); }));
+    for (int k = 0; k < 2 + trial % 3; ++k) way.push_back(random.vector(3, -3.0, 3.0));
     PlanRequest r = request("time_optimal", way, limitsOf(3, 1.0, 4.0, 40.0));
     r.sample_period = 1e6;
     for (VectorX* limits : {&r.limits.velocity, &r.limits.acceleration, &r.limits.jerk}) {
-      *limits = VectorX::NullaryExpr(limits->size(), [&] { return std::pow(10.0, uniform(-5.0, 5.0)); });
+      *limits = VectorX::NullaryExpr(limits->size(), [&] { return std::pow(10.0, random.uniform(-5.0, 5.0)); });
     }
     EXPECT_EQ(messageOf(r), "") << "seed " << kSeed << ", trial " << trial;
   }
