@@ -20,14 +20,15 @@ class DixonCondition : public HiddenCondition {
   }
   CircleMap spread() const override { return pencil_.spread(); }
   bool vanishes() const override { return pencil_.vanishes(); }
-  bool hidesMotion() const override { return false; }
+  bool isIllConditioned() const override { return false; }
+  bool leavesFree(double, bool) const override { return false; }
   std::optional<Vector6> configurationAt(double angle) const override {
     return configurationOf(angle, pencil_.unknownsAt(angle));
   }
-  std::array<Vector6, 2> bothAt(double angle) const override {
+  std::array<std::optional<Vector6>, 2> bothAt(double angle) const override {
     const LoopSystem::Coefficients equations = system_.at({std::cos(0.5 * angle), std::sin(0.5 * angle)});
     const std::array<std::array<JointParameter, 3>, 2> both = pencil_.doubleUnknownsAt(angle, equations);
-    return {configurationOf(angle, both[0]), configurationOf(angle, both[1])};
+    return {{configurationOf(angle, both[0]), configurationOf(angle, both[1])}};
   }
 
  private:

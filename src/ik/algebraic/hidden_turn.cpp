@@ -10,10 +10,12 @@ namespace screwline {
 namespace {
 
 constexpr double kLargestNoise = 1e-5;  ///< Of the polynomial's coefficients.
+constexpr double kLeastNoise = 1e-9;    ///< Above it, a root that leads nowhere may do so by rounding.
 constexpr int kProbes = 8;              ///< Values of the hidden joint where all of them are roots.
 constexpr int kTrials = 32;
 constexpr double kUsable = 1e-2;  ///< [rad] error of the worst trial but three.
 constexpr std::size_t kMostUsed = 3;
+constexpr double kDouble = 0.1;  ///< Second derivative at a root of order two.
 
 HiddenTurns bestOf(std::vector<std::pair<double, std::shared_ptr<const HiddenTurn>>> ranked) {
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -39,26 +41,35 @@ Eliminated HiddenTurn::solve(const HiddenCondition& condition, RootRefiner& refi
     }
     if (vanishing) return Eliminated::kVanishing;
   }
-  bool all_found = !roots.overflow && !condition.hidesMotion();
+  bool all_found = !roots.overflow && !condition.isIllConditioned();
   std::array<bool, AlgebraicSolutions::kCapacity> taken{};
   for (int i = 0; i < roots.count; ++i) {
     const TrigonometricRoots::Root& root = roots.roots[static_cast<std::size_t>(i)];
     const double angle = map.angle(root.angle);
     const std::optional<Vector6> q = condition.configurationAt(angle);
-    if (!q) continue;
-    int place = refiner.add(*q);
+    if (!q && !root.touching) continue;
+    int place = q ? refiner.add(*q) : -1;
     const auto isNew = [&taken](int found) { return found >= 0 && !taken[static_cast<std::size_t>(found)]; };
+    int at_infinity = 0;
     bool has_other = false;
     if (root.touching || !isNew(place)) {
-      for (const Vector6& one : condition.bothAt(angle)) {
-        const int other = refiner.add(one);
+      for (const std::optional<Vector6>& one : condition.bothAt(angle)) {
+        at_infinity += one ? 0 : 1;
+        if (!one) continue;
+        const int other = refiner.add(*one);
         has_other = has_other || (other >= 0 && place >= 0 && other != place);
         if (isNew(other) || place < 0) place = other;
       }
     }
     if (root.touching) {
-      // A double root of the hidden angle stands for two solutions, or for one that is double itself.
-      all_found = all_found && (place < 0 || has_other || !refiner.isRegular(place));
+      // A double root of the hidden angle stands for two solutions, or for one that is double itself, or for none.
+      bool explained = has_other;
+      if (at_infinity > 0) {
+        explained = (at_infinity == 2 || place >= 0) && std::abs(polynomial.derivatives(root.angle)[2]) > kDouble;
+      } else if (!has_other) {
+        explained = place < 0 ? polynomial.noise < kLeastNoise : !refiner.isRegular(place);
+      }
+      all_found = all_found && explained && !condition.leavesFree(angle, at_infinity > 0);
       continue;
     }
     if (isNew(place)) {

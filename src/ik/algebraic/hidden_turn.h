@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_SRC_IK_ALGEBRAIC_HIDDEN_TURN_H
 #define SCREWLINE_SRC_IK_ALGEBRAIC_HIDDEN_TURN_H
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,12 +30,15 @@ class HiddenCondition {
   virtual CircleMap spread() const = 0;
   /// Whether it is zero at every angle, to rounding.
   virtual bool vanishes() const = 0;
-  /// Whether the other joints may go on moving at some angle: there solutions are none of its roots.
-  virtual bool hidesMotion() const = 0;
+  /// Whether the other joints are hardly told by this one, whatever its angle.
+  virtual bool isIllConditioned() const = 0;
+  /// Whether the angle, as well as a multiple root tells it, leaves some of the other joints free: any number of
+  /// solutions may share it. Of slides it is not asked where roots at infinity account for it.
+  virtual bool leavesFree(double angle, bool at_infinity) const = 0;
   /// Joint values at a root, or next to one; empty where a slide is at infinity.
   virtual std::optional<Vector6> configurationAt(double angle) const = 0;
   /// The same where two roots share the angle, or almost.
-  virtual std::array<Vector6, 2> bothAt(double angle) const = 0;
+  virtual std::array<std::optional<Vector6>, 2> bothAt(double angle) const = 0;
 };
 
 /// All solutions by the angle of one turn. Solving allocates nothing.

@@ -1,5 +1,6 @@
 #include "root_refiner.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -113,13 +114,15 @@ bool RootRefiner::isSame(const Vector6& a, const Vector6& b) const {
   if (distance > kMaybeSame) return false;
   // Where the middle is a solution as well, rounding leaves open where between the two the solution lies.
   Vector6 middle = b;
+  double farthest = 1.0;  // Rounding grows with the way that slides go.
   for (Eigen::Index i = 0; i < 6; ++i) {
     const bool prismatic = chain_.kernel().axes[static_cast<std::size_t>(i)].prismatic;
     middle[i] += 0.5 * apart[i] * (prismatic ? length_ : 1.0);
+    if (prismatic) farthest = std::max(farthest, std::abs(middle[i]) / length_);
   }
   Point point;
   evaluate(middle, point);
-  return point.error <= 8.0 * kExact;
+  return point.error <= 8.0 * kExact * farthest;
 }
 
 bool RootRefiner::isRegular(int place) const {

@@ -12,7 +12,8 @@ namespace {
 constexpr int kDegree = 4;              ///< Half the number of solutions.
 constexpr double kFirstSample = 0.05;   ///< [rad] Where no arm's axes come into line by design.
 constexpr double kAtInfinity = 1e6;     ///< [lengths] of a slide.
-constexpr double kInLine = 1e-3;        ///< [rad] between axes one of which is on the other's other side.
+constexpr double kInLine = 2e-3;        ///< [rad] between axes: as well as a multiple root tells it.
+constexpr double kParallel = 1e-4;      ///< [rad] between slides, or axes that are never in line.
 constexpr int kVanishingSamples = 7;
 constexpr double kVanishing = 1e-13;
 
@@ -39,6 +40,12 @@ struct Branches {
   SurdVector missing;                ///< What they have to move.
 };
 
+/// Of what the slides' directions and the missing way span: g.
+Surd volumeOf(const Branches& branches) {
+  const SurdVector normal = cross(branches.slides[0], branches.slides[1], branches.square);
+  return dot(normal, branches.missing, branches.square);
+}
+
 /// The slides span a plane in which the rest of the way lies.
 class PlaneCondition : public HiddenCondition {
  public:
@@ -47,16 +54,17 @@ class PlaneCondition : public HiddenCondition {
   TrigonometricPolynomial polynomial(const CircleMap& map) const override;
   CircleMap spread() const override { return {kFirstSample, 1.0}; }
   bool vanishes() const override;
-  bool hidesMotion() const override;
+  bool isIllConditioned() const override;
+  bool leavesFree(double angle, bool at_infinity) const override;
   std::optional<Vector6> configurationAt(double angle) const override;
-  std::array<Vector6, 2> bothAt(double angle) const override;
+  std::array<std::optional<Vector6>, 2> bothAt(double angle) const override;
 
  private:
   const Axis& turn(int i) const { return axes_[static_cast<std::size_t>(turns_[static_cast<std::size_t>(i)])]; }
   Branches at(double angle) const;
   void place(Branches& branches, const Vector3& goal) const;
-  /// False where a slide is at infinity.
-  bool configuration(double angle, const Branches& branches, double w, Vector6& q) const;
+  double amplitude() const { return cosine_ * cosine_ + sine_ * sine_; }
+  std::optional<Vector6> configuration(double angle, const Branches& branches, double w) const;
 
   const Loop& loop_;
   int hidden_;
@@ -111,10 +119,9 @@ Branches PlaneCondition::at(double angle) const {
   const Vector3 first = first_.at(c, s);
   Branches branches;
   // cosine cos u + sine sin u = between
-  const double amplitude = cosine_ * cosine_ + sine_ * sine_;
   const double between = axis1.dot(last) - constant_;
-  branches.square = amplitude - between * between;
-  const double scale = 1.0 / amplitude;
+  branches.square = amplitude() - between * between;
+  const double scale = 1.0 / amplitude();
   SurdTurn& middle = branches.turns[1];
   middle.cosine = {scale * cosine_ * between, -scale * sine_};
   middle.sine = {scale * sine_ * between, scale * cosine_};
@@ -157,8 +164,7 @@ TrigonometricPolynomial PlaneCondition::polynomial(const CircleMap& map) const {
   std::array<double, kTrigonometricSamples> values;
   for (int i = 0; i < kTrigonometricSamples; ++i) {
     const Branches branches = at(map.angle(kTwoPi * i / kTrigonometricSamples));
-    const SurdVector normal = cross(branches.slides[0], branches.slides[1], branches.square);
-    const Surd volume = dot(normal, branches.missing, branches.square);
+    const Surd volume = volumeOf(branches);
     values[static_cast<std::size_t>(i)] =
         branches.sine_square * (volume.a * volume.a - branches.square * volume.b * volume.b);
   }
@@ -170,42 +176,46 @@ TrigonometricPolynomial PlaneCondition::polynomial(const CircleMap& map) const {
 bool PlaneCondition::vanishes() const {
   for (int i = 0; i < kVanishingSamples; ++i) {
     const Branches branches = at(0.5 + kTwoPi * i / kVanishingSamples);
-    const SurdVector normal = cross(branches.slides[0], branches.slides[1], branches.square);
-    const Surd volume = dot(normal, branches.missing, branches.square);
-    const double square = std::abs(branches.square);
-    const double size = (normal.a.squaredNorm() + square * normal.b.squaredNorm()) *
-                        (branches.missing.a.squaredNorm() + square * branches.missing.b.squaredNorm());
+    const auto sizeOf = [&branches](const SurdVector& v) {
+      return v.a.squaredNorm() + std::abs(branches.square) * v.b.squaredNorm();
+    };
+    const Surd volume = volumeOf(branches);
     const double value = volume.a * volume.a - branches.square * volume.b * volume.b;
+    const double size = sizeOf(branches.slides[0]) * sizeOf(branches.slides[1]) * sizeOf(branches.missing);
     if (std::abs(value) > kVanishing * size) return false;
   }
   return true;
 }
 
-/// Axes 1 and 3 of the other turns may come into line, and then only a sum of their angles is given.
-bool PlaneCondition::hidesMotion() const {
+/// The middle turn's neighbours are almost in line with it, or with each other at every angle.
+bool PlaneCondition::isIllConditioned() const {
   const Vector3& axis1 = turn(0).direction;
-  const double c = axis1.dot(last_.cosine);
-  const double s = axis1.dot(last_.sine);
-  for (double side : {1.0, -1.0}) {
-    const double angle = std::atan2(side * s, side * c);
-    const double cosine = axis1.dot(last_.at(std::cos(angle), std::sin(angle)));
-    const double between = cosine - constant_;
-    const double square = cosine_ * cosine_ + sine_ * sine_ - between * between;
-    if (1.0 - cosine * cosine < kInLine * kInLine && square > -kInLine * kInLine) return true;
-  }
-  return false;
+  const double mean = std::abs(axis1.dot(last_.constant));
+  const double least = mean - std::hypot(axis1.dot(last_.cosine), axis1.dot(last_.sine));
+  return amplitude() < kParallel * kParallel || least > 1.0 - 0.5 * kParallel * kParallel;
 }
 
-bool PlaneCondition::configuration(double angle, const Branches& branches, double w, Vector6& q) const {
+/// Of turns in line only a sum of angles is given, of parallel slides a sum of lengths.
+bool PlaneCondition::leavesFree(double angle, bool at_infinity) const {
+  const Branches branches = at(angle);
+  const double w = std::sqrt(std::max(branches.square, 0.0));
+  const auto area = [&branches](double side) {
+    return branches.slides[0].at(side).cross(branches.slides[1].at(side)).squaredNorm();
+  };
+  const bool parallel = !at_infinity && std::min(area(w), area(-w)) < kParallel * kParallel;
+  return parallel || branches.sine_square < kInLine * kInLine;
+}
+
+std::optional<Vector6> PlaneCondition::configuration(double angle, const Branches& branches, double w) const {
   const Vector3 first = branches.slides[0].at(w);
   const Vector3 second = branches.slides[1].at(w);
   const Vector3 missing = branches.missing.at(w);
   const Vector3 normal = first.cross(second);
   const Vector3 across1 = missing.cross(second);
   const Vector3 across2 = first.cross(missing);
-  const double area = normal.norm();
-  if (std::max(across1.norm(), across2.norm()) > kAtInfinity * area) return false;
-  const std::array<double, 2> slides = {normal.dot(across1) / (area * area), normal.dot(across2) / (area * area)};
+  const double square = normal.squaredNorm();
+  if (std::max(across1.squaredNorm(), across2.squaredNorm()) > kAtInfinity * kAtInfinity * square) return std::nullopt;
+  const std::array<double, 2> slides = {normal.dot(across1) / square, normal.dot(across2) / square};
   Vector6 displacements;
   displacements[hidden_] = angle;
   std::size_t slide = 0;
@@ -215,28 +225,20 @@ bool PlaneCondition::configuration(double angle, const Branches& branches, doubl
     displacements[joint] = axes_[static_cast<std::size_t>(i)].prismatic ? loop_.length * slides[slide++]
                                                                         : branches.turns[turn++].at(w);
   }
-  q = displacements.cwiseQuotient(loop_.multipliers);
-  return true;
+  return displacements.cwiseQuotient(loop_.multipliers);
 }
 
 std::optional<Vector6> PlaneCondition::configurationAt(double angle) const {
   const Branches branches = at(angle);
-  const SurdVector normal = cross(branches.slides[0], branches.slides[1], branches.square);
-  const Surd volume = dot(normal, branches.missing, branches.square);
+  const Surd volume = volumeOf(branches);
   const double w = std::sqrt(std::max(branches.square, 0.0));
-  Vector6 q;
-  const bool finite = configuration(angle, branches, volume.a * volume.b > 0.0 ? -w : w, q);
-  return finite ? std::optional<Vector6>(q) : std::nullopt;
+  return configuration(angle, branches, volume.a * volume.b > 0.0 ? -w : w);
 }
 
-std::array<Vector6, 2> PlaneCondition::bothAt(double angle) const {
+std::array<std::optional<Vector6>, 2> PlaneCondition::bothAt(double angle) const {
   const Branches branches = at(angle);
   const double w = std::sqrt(std::max(branches.square, 0.0));
-  std::array<Vector6, 2> both;
-  both.fill(Vector6::Constant(std::numeric_limits<double>::infinity()));
-  configuration(angle, branches, w, both[0]);
-  configuration(angle, branches, -w, both[1]);
-  return both;
+  return {{configuration(angle, branches, w), configuration(angle, branches, -w)}};
 }
 
 }  // namespace
