@@ -9,11 +9,11 @@
 namespace screwline {
 namespace {
 
-constexpr int kDegree = 4;              ///< Half the number of solutions.
-constexpr double kFirstSample = 0.05;   ///< [rad] Where no arm's axes come into line by design.
-constexpr double kAtInfinity = 1e6;     ///< [lengths] of a slide.
-constexpr double kInLine = 2e-3;        ///< [rad] between axes: as well as a multiple root tells it.
-constexpr double kParallel = 1e-4;      ///< [rad] between slides, or axes that are never in line.
+constexpr int kDegree = 4;             ///< Half the number of solutions.
+constexpr double kFirstSample = 0.05;  ///< [rad] Where no arm's axes come into line by design.
+constexpr double kAtInfinity = 1e6;    ///< [lengths] of a slide.
+constexpr double kInLine = 2e-3;       ///< [rad] between axes: as well as a multiple root tells it.
+constexpr double kParallel = 1e-4;     ///< [rad] between slides, or axes that are never in line.
 constexpr int kVanishingSamples = 7;
 constexpr double kVanishing = 1e-13;
 
@@ -222,8 +222,8 @@ std::optional<Vector6> PlaneCondition::configuration(double angle, const Branche
   std::size_t turn = 0;
   for (int i = 0; i < 5; ++i) {
     const int joint = (hidden_ + 1 + i) % 6;
-    displacements[joint] = axes_[static_cast<std::size_t>(i)].prismatic ? loop_.length * slides[slide++]
-                                                                        : branches.turns[turn++].at(w);
+    displacements[joint] =
+        axes_[static_cast<std::size_t>(i)].prismatic ? loop_.length * slides[slide++] : branches.turns[turn++].at(w);
   }
   return displacements.cwiseQuotient(loop_.multipliers);
 }
