@@ -26,6 +26,25 @@ HiddenTurns bestOf(std::vector<std::pair<double, std::shared_ptr<const HiddenTur
   return best;
 }
 
+/// What a root of the polynomial led to.
+struct RootFound {
+  int place = -1;          ///< Of the solution among all; -1: none.
+  bool has_other = false;  ///< A second one.
+  int at_infinity = 0;     ///< Of both ways, those with a slide at infinity.
+};
+
+/// A double root of the hidden angle stands for two solutions, one of them or both at infinity maybe; or for one that
+/// is double itself, or for none.
+bool isExplained(const TrigonometricPolynomial& polynomial, double image, const RootFound& found,
+                 const RootRefiner& refiner) {
+  if (found.at_infinity > 0) {
+    const bool two = found.at_infinity == 2 || found.place >= 0;
+    return two && std::abs(polynomial.derivatives(image)[2]) > kDouble;
+  }
+  if (found.place < 0) return polynomial.noise < kLeastNoise;
+  return found.has_other || !refiner.isRegular(found.place);
+}
+
 }  // namespace
 
 Eliminated HiddenTurn::solve(const HiddenCondition& condition, RootRefiner& refiner) {
@@ -48,32 +67,23 @@ Eliminated HiddenTurn::solve(const HiddenCondition& condition, RootRefiner& refi
     const double angle = map.angle(root.angle);
     const std::optional<Vector6> q = condition.configurationAt(angle);
     if (!q && !root.touching) continue;
-    int place = q ? refiner.add(*q) : -1;
-    const auto isNew = [&taken](int found) { return found >= 0 && !taken[static_cast<std::size_t>(found)]; };
-    int at_infinity = 0;
-    bool has_other = false;
-    if (root.touching || !isNew(place)) {
+    RootFound found;
+    found.place = q ? refiner.add(*q) : -1;
+    const auto isNew = [&taken](int place) { return place >= 0 && !taken[static_cast<std::size_t>(place)]; };
+    if (root.touching || !isNew(found.place)) {
       for (const std::optional<Vector6>& one : condition.bothAt(angle)) {
-        at_infinity += one ? 0 : 1;
+        found.at_infinity += one ? 0 : 1;
         if (!one) continue;
         const int other = refiner.add(*one);
-        has_other = has_other || (other >= 0 && place >= 0 && other != place);
-        if (isNew(other) || place < 0) place = other;
+        found.has_other = found.has_other || (other >= 0 && found.place >= 0 && other != found.place);
+        if (isNew(other) || found.place < 0) found.place = other;
       }
     }
     if (root.touching) {
-      // A double root of the hidden angle stands for two solutions, or for one that is double itself, or for none.
-      bool explained = has_other;
-      if (at_infinity > 0) {
-        explained = (at_infinity == 2 || place >= 0) && std::abs(polynomial.derivatives(root.angle)[2]) > kDouble;
-      } else if (!has_other) {
-        explained = place < 0 ? polynomial.noise < kLeastNoise : !refiner.isRegular(place);
-      }
-      all_found = all_found && explained && !condition.leavesFree(angle, at_infinity > 0);
-      continue;
-    }
-    if (isNew(place)) {
-      taken[static_cast<std::size_t>(place)] = true;
+      all_found = all_found && isExplained(polynomial, root.angle, found, refiner) &&
+                  !condition.leavesFree(angle, found.at_infinity > 0);
+    } else if (isNew(found.place)) {
+      taken[static_cast<std::size_t>(found.place)] = true;
     } else {
       all_found = false;
     }

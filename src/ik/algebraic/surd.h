@@ -1,6 +1,8 @@
 #ifndef SCREWLINE_SRC_IK_ALGEBRAIC_SURD_H
 #define SCREWLINE_SRC_IK_ALGEBRAIC_SURD_H
 
+#include <cmath>
+
 #include "screwline/spatial/pose.h"
 
 namespace screwline {

@@ -1,8 +1,8 @@
 #include "two_slides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
 
 #include "surd.h"
 
