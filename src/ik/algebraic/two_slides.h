@@ -10,11 +10,11 @@ namespace screwline {
 /// The turns alone make the orientation: with one of them at an angle the others follow, in two ways, and the position
 /// is left to the slides. Their directions d1, d2 and what is missing, p, have to lie in a plane: g = det(d1, d2, p)
 /// vanishes. On the curve of all angles that make the orientation, a spherical four-bar's, the turns' cosines and sines
-/// have four poles for each of the two pairs of opposite turns, and g has a pole of order one there: written with
-/// whichever two neighbouring turns lie between, each term of it has degree one in both. So it has 8 zeros. The product
-/// of g in both ways, times 1 - c^2, is a trigonometric polynomial of degree 4 over the hidden angle with these zeros
-/// and no others; c is the cosine between the axes of the first and the last of the three. Its roots are all solutions,
-/// but those where the slides are parallel.
+/// have four poles for each of the two pairs of opposite turns. Each term of g, written with the turns on one side of
+/// the loop or on the other, has degree one in both pairs: g has 8 poles of order one, and so 8 zeros. The product of g
+/// in both ways, times 1 - c^2, is a trigonometric polynomial of degree 4 over the hidden angle with these zeros and no
+/// others; c is the cosine between the axes of the first and the last of the three. Its roots are all solutions, but
+/// those where the slides are parallel.
 class TwoSlides : public HiddenTurn {
  public:
   /// @pre the joint `hidden` is one of the loop's four turns, and two of its axes are slides.
