@@ -69,6 +69,15 @@ class Gathering {
     });
   }
 
+  /// Whether elimination could not add to them.
+  bool coverAll() const {
+    for (unsigned k = 0; k < 8; ++k) {
+      const auto sign = [k](unsigned i) { return (k >> i & 1U) != 0U ? 1 : -1; };
+      if (!covers({sign(0), sign(1), sign(2)})) return false;
+    }
+    return true;
+  }
+
   std::vector<Candidate> take() { return std::move(candidates_); }
 
  private:
@@ -154,7 +163,8 @@ ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain&
   if (solutions.open != 0 && !addContinua(method, chain, target, seed, solutions, gathering)) eliminate = true;
   ParallelCandidates result;
   result.complete = !refuted && !eliminate;
-  if ((solutions.clamped != 0 || eliminate) && method.algebraic) {
+  const bool in_doubt = refuted || (solutions.clamped != 0 && solutions.loose && !gathering.coverAll());
+  if ((in_doubt || eliminate) && method.algebraic) {
     AlgebraicSolutions roots;
     method.algebraic->solve(target, roots);
     result.complete = result.complete || roots.complete;
