@@ -30,7 +30,9 @@ bool completeAlmostSingular(const SerialChain& chain, const Task& task, const Po
       }
       return std::any_of(mates.begin(), mates.end(), [&](const IkAnswer& mate) { return isAt(mate, place, distance); });
     };
-    const SolutionsAbout about = solutionsAbout(chain, task, target, answers[i].position, isAtHand);
+    // What points somewhere has rows of its own in the residual.
+    const SmallSvd* known = task.pointingAxis() < 0 ? builder.decompositionAt(answers[i].position) : nullptr;
+    const SolutionsAbout about = solutionsAbout(chain, task, target, answers[i].position, known, isAtHand);
     for (const VectorX& q : about.solutions) {
       Candidate candidate = unnamed(q);
       candidate.branch = answers[i].branch;

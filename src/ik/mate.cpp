@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "candidate.h"
 #include "numerical/task_residual.h"
 #include "screwline/ik/closed_form/roots.h"
-#include "screwline/spatial/small_svd.h"
 
 namespace screwline {
 namespace {
@@ -184,12 +184,13 @@ double recognisedWithin(const std::vector<Plane>& roots, const Plane& root) {
 }  // namespace
 
 SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q,
-                              const IsAtHand& at_hand) {
+                              const SmallSvd* known, const IsAtHand& at_hand) {
   TaskResidual residual(chain, task, target, 1.0);
   TaskPoint here;
   here.q = q;
   residual.evaluate(here);
-  const SmallSvd svd(here.J);
+  std::optional<SmallSvd> made;
+  const SmallSvd& svd = known != nullptr ? *known : made.emplace(here.J);
   const Eigen::Index last = q.size() - 1;
   SolutionsAbout about;
   if (svd.sigma[last] > kNearSingular * svd.sigma[0]) return about;

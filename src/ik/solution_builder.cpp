@@ -6,7 +6,6 @@
 #include "continuum.h"
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/kinematics/singularity.h"
-#include "task_conditioning.h"
 #include "turns.h"
 
 namespace screwline {
@@ -47,18 +46,29 @@ std::optional<IkAnswer> SolutionBuilder::build(Candidate candidate) const {
     verify(solution);
   }
   if (!isSolution(solution)) return std::nullopt;
-  measure(solution, candidate.merged);
+  const TaskConditioning conditioning = measure(solution, candidate.merged);
   const double band = std::clamp(solution.joint_error, kLeastBand, kMostBand);
   const Turned turned =
       chooseTurns(chain_, solution.position, seed_, hasSeed() || !candidate.free.empty(), request_.ignore_limits, band);
   solution.within_limits = turned.within_limits;
   // Full turns and what is put on a limit leave the Jacobian as it was, to rounding; the pose is looked at again.
+  const bool moved = largestDifference(chain_, turned.q, solution.position) > kGoodEnough;
   if (turned.q != solution.position) {
     solution.position = turned.q;
     verify(solution);
   }
   if (!isSolution(solution)) return std::nullopt;
+  if (conditioning.svd && candidate.free.empty() && !moved) {
+    nearly_singular_.emplace_back(solution.position, *conditioning.svd);
+  }
   return solution;
+}
+
+const SmallSvd* SolutionBuilder::decompositionAt(const VectorX& position) const {
+  for (const auto& [place, svd] : nearly_singular_) {
+    if (place == position) return &svd;
+  }
+  return nullptr;
 }
 
 double SolutionBuilder::timeLeft() const {
@@ -93,8 +103,8 @@ double SolutionBuilder::verify(IkAnswer& solution) const {
 }
 
 /// @pre jacobian_ is the solution's.
-void SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
-  const TaskConditioning conditioning = conditioningOf(task_.select(jacobian_, orientation_), jacobianNoise(jacobian_));
+TaskConditioning SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
+  TaskConditioning conditioning = conditioningOf(task_.select(jacobian_, orientation_), jacobianNoise(jacobian_));
   const double rounding = kRounding * (1.0 + chain_.characteristicLength());  // A residual of zero is luck.
   solution.joint_error =
       std::hypot(solution.position_error, solution.orientation_error, rounding) / conditioning.smallest;
@@ -102,6 +112,7 @@ void SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
   solution.singular =
       merged || solution.self_motion.rows() > std::max(0, chain_.size() - task_.size()) || !conditioning.full_rank;
   if (solution.self_motion.rows() == 0) solution.self_motion.resize(0, chain_.size());
+  return conditioning;
 }
 
 void describeRedundancy(const SerialChain& chain, const Task& task, IkAnswer& solution) {

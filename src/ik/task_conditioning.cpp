@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "screwline/kinematics/singularity.h"
-#include "screwline/spatial/small_svd.h"
 
 namespace screwline {
 namespace {
@@ -18,8 +17,9 @@ constexpr double kConverged = 1e-14;  ///< Of the eigenvalue.
 constexpr int kMaxSteps = 30;
 
 TaskConditioning bySingularValues(const MatrixX& J, double noise) {
-  const VectorX sigma = J.rows() == J.cols() ? VectorX(SmallSvd(J).sigma) : singularValues(J);
   TaskConditioning result;
+  if (J.rows() == J.cols()) result.svd.emplace(J);
+  const VectorX sigma = result.svd ? VectorX(result.svd->sigma) : singularValues(J);
   result.smallest = std::max({sigma.minCoeff(), kRankTolerance * sigma.maxCoeff(), 1e-12});
   result.manipulability = sigma.prod();
   result.full_rank = rankOf(sigma, noise) == sigma.size();
