@@ -99,15 +99,15 @@ bool addContinua(const ParallelMethod& method, const SerialChain& chain, const P
                  const ParallelSolutions& solutions, Gathering& gathering) {
   bool any = false;
   bool sheets = false;
+  const auto add = [&](const SolutionLoops& found) {
+    for (const SolutionLoop& loop : found.loops) gathering.addLoop(loop);
+    for (const PlanSolution& point : found.points) gathering.addIsolated(point, jointsOf(point, 6));
+    any = any || !found.loops.empty() || !found.points.empty();
+  };
+  add(loopsOfPair(method.plan, chain, target));
   for (int joint = 0; joint < 6; ++joint) {
-    if ((solutions.open >> joint & 1U) == 0U) continue;
-    std::vector<PlanSolution> points;
-    for (const SolutionLoop& loop : solutionLoops(method.plan, chain, target, seed, joint, points)) {
-      gathering.addLoop(loop);
-      any = true;
-    }
-    for (const PlanSolution& point : points) gathering.addIsolated(point, jointsOf(point, 6));
-    any = any || !points.empty();
+    const bool is_open = (solutions.open >> joint & 1U) != 0U;
+    if (is_open && !method.plan.isOfPair(joint)) add(sampledLoops(method.plan, chain, target, seed, joint));
   }
   for (const PlanSolution& solution : solutions) {
     if ((solution.free & (solution.free - 1U)) != 0U && !any) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "screwline/spatial/rotation.h"
 #include "solution_curve.h"
@@ -10,164 +9,62 @@
 namespace screwline {
 namespace {
 
-constexpr int kSamples = 180;         // Of the free joint's turn, where branches are looked for.
-constexpr double kPoint = 1e-9;       // [rad] An arc that is shorter is a point.
 constexpr double kOffFolds = 0.0137;  // Of the way round: no sample at a place where arcs meet.
-constexpr double kSameEnd = 1e-5;     // [rad] Ends of arcs are folds, known to the square root of rounding.
 
-/// Solutions with only `joint` free and set to `value`.
-class Sheets {
- public:
-  Sheets(const ParallelPlan& plan, const Pose& target, const VectorX& seed, int joint)
-      : plan_(plan), target_(target), preferred_(seed), joint_(joint) {}
-
-  const std::vector<PlanSolution>& at(double value) {
-    preferred_[joint_] = value;
-    ParallelSolutions solutions;
-    plan_.solve(target_, preferred_.data(), solutions);
-    found_.clear();
-    for (int k = 0; k < solutions.count; ++k) {
-      const PlanSolution& solution = solutions.solutions[static_cast<std::size_t>(k)];
-      const bool clamped = (solutions.clamped >> k & 1U) != 0U;
-      if (solution.free == 1U << joint_ && !clamped) found_.push_back(solution);
-    }
-    return found_;
-  }
-
-  bool exists(double value, const std::array<int, 3>& sign, PlanSolution& solution) {
-    for (const PlanSolution& one : at(value)) {
-      if (one.sign != sign) continue;
-      solution = one;
-      return true;
-    }
-    return false;
-  }
-
-  /// The last value towards `outside` where the branch exists.
-  double end(double inside, double outside, const std::array<int, 3>& sign) {
-    PlanSolution solution;
-    for (int i = 0; i < 60 && inside != outside; ++i) {
-      const double middle = 0.5 * (inside + outside);
-      if (middle == inside || middle == outside) break;
-      (exists(middle, sign, solution) ? inside : outside) = middle;
-    }
-    return inside;
-  }
-
- private:
-  const ParallelPlan& plan_;
-  Pose target_;
-  VectorX preferred_;
-  int joint_;
-  std::vector<PlanSolution> found_;
-};
-
-std::vector<double> sampledValues(const ParallelPlan& plan, const Pose& target, const VectorX& seed, int joint) {
-  std::vector<double> values;
-  const double first = wrapAngle(seed[joint]);
-  for (int i = 0; i < kSamples; ++i) values.push_back(wrapAngle(first + kTwoPi * i / kSamples));
-  for (double value : plan.extremes(target, seed.data(), joint)) values.push_back(wrapAngle(value));
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
-}
-
-/// Runs of neighbouring samples that have the branch, their ends refined.
-std::vector<LoopArc> arcsOf(Sheets& sheets, const std::vector<double>& values, const std::vector<bool>& present,
-                            const std::array<int, 3>& sign) {
+/// From stretch to stretch, one elbow after the other, until it closes.
+std::vector<LoopArc> traced(const std::vector<SheetStretch>& stretches, std::size_t first, int elbow,
+                            std::vector<std::array<bool, 2>>& seen) {
   std::vector<LoopArc> arcs;
-  const std::size_t count = values.size();
-  const auto absent = std::find(present.begin(), present.end(), false);
-  if (absent == present.end()) return {{values.front(), values.front() + kTwoPi, sign}};
-  const auto start = static_cast<std::size_t>(absent - present.begin());
-  const auto valueAt = [&](std::size_t i) { return values[i % count] + (i >= count ? kTwoPi : 0.0); };
-  for (std::size_t i = start; i < start + count; ++i) {
-    if (present[i % count] || !present[(i + 1) % count]) continue;
-    std::size_t last = i + 1;
-    while (present[(last + 1) % count]) ++last;
-    arcs.push_back(
-        {sheets.end(valueAt(i + 1), valueAt(i), sign), sheets.end(valueAt(last), valueAt(last + 1), sign), sign});
-    i = last;
+  const std::size_t count = stretches.size();
+  std::size_t i = first;
+  bool upwards = true;
+  while (!seen[i][elbow > 0 ? 0 : 1]) {
+    const SheetStretch& stretch = stretches[i];
+    seen[i][elbow > 0 ? 0 : 1] = true;
+    arcs.push_back({upwards ? stretch.from : stretch.to, upwards ? stretch.to : stretch.from, {0, elbow, 0}});
+    if (stretch.isWhole() && !stretch.passes_to) break;
+    if (upwards ? stretch.passes_to : stretch.passes_from) {
+      i = (i + (upwards ? 1 : count - 1)) % count;
+    } else {
+      upwards = !upwards;
+    }
+    elbow = -elbow;
   }
   return arcs;
 }
 
-/// Arcs put end to end where they meet.
-std::vector<std::vector<LoopArc>> chained(Sheets& sheets, const SerialChain& chain, std::vector<LoopArc> arcs) {
-  const auto endOf = [&](const LoopArc& arc, double value) {
-    PlanSolution solution;
-    sheets.exists(value, arc.sign, solution);
-    return jointsOf(solution, 6);
-  };
-  std::vector<std::vector<LoopArc>> loops;
-  while (!arcs.empty()) {
-    std::vector<LoopArc> loop = {arcs.back()};
-    arcs.pop_back();
-    for (bool grown = std::abs(loop.front().to - loop.front().from) < kTwoPi - kPoint; grown;) {
-      grown = false;
-      const VectorX open = endOf(loop.back(), loop.back().to);
-      for (std::size_t i = 0; i < arcs.size() && !grown; ++i) {
-        LoopArc next = arcs[i];
-        if (largestDifference(chain, endOf(next, next.from), open) > kSameEnd) std::swap(next.from, next.to);
-        if (largestDifference(chain, endOf(next, next.from), open) > kSameEnd) continue;
-        loop.push_back(next);
-        arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(i));
-        grown = true;
-      }
-    }
-    loops.push_back(loop);
-  }
-  return loops;
-}
-
 }  // namespace
 
-std::vector<SolutionLoop> solutionLoops(const ParallelPlan& plan, const SerialChain& chain, const Pose& target,
-                                        const VectorX& seed, int joint, std::vector<PlanSolution>& points) {
-  Sheets sheets(plan, target, seed, joint);
-  const std::vector<double> values = sampledValues(plan, target, seed, joint);
-  std::vector<std::pair<std::array<int, 3>, std::vector<bool>>> presence;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    for (const PlanSolution& solution : sheets.at(values[i])) {
-      auto known = std::find_if(presence.begin(), presence.end(),
-                                [&](const auto& entry) { return entry.first == solution.sign; });
-      if (known == presence.end())
-        known = presence.insert(presence.end(), {solution.sign, std::vector<bool>(values.size(), false)});
-      known->second[i] = true;
-    }
-  }
-  std::vector<LoopArc> arcs;
-  std::vector<PlanSolution> single;
-  for (const auto& [sign, present] : presence) {
-    for (const LoopArc& arc : arcsOf(sheets, values, present, sign)) {
-      PlanSolution point;
-      if (arc.to - arc.from > kPoint) {
-        arcs.push_back(arc);
-      } else if (sheets.exists(arc.from, sign, point)) {
-        single.push_back(point);
+SolutionLoops loopsOfPair(const ParallelPlan& plan, const SerialChain& chain, const Pose& target) {
+  SolutionLoops found;
+  for (const ParallelSheet& sheet : plan.sheets(target)) {
+    const auto member = [sheet](const LoopArc& arc, double value, const VectorX&) {
+      return jointsOf(sheet.member(value, arc.sign[1]), 6);
+    };
+    const std::vector<SheetStretch> stretches = sheet.stretches();
+    std::vector<std::array<bool, 2>> seen(stretches.size());
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      const SheetStretch& stretch = stretches[i];
+      PlanSolution some = sheet.member(stretch.from, 1);
+      if (stretch.isPoint()) {
+        some.free = 0;
+        found.points.push_back(some);
+        continue;
+      }
+      for (int elbow : {1, -1}) {
+        if (stretch.straight && elbow < 0) break;
+        std::vector<LoopArc> arcs =
+            stretch.straight ? std::vector<LoopArc>{{stretch.from, stretch.to, {}}} : traced(stretches, i, elbow, seen);
+        for (LoopArc& arc : arcs) arc.sign = {some.sign[0], arc.sign[1], some.sign[2]};
+        if (!arcs.empty()) found.loops.emplace_back(chain, sheet.joint(), std::move(arcs), member);
       }
     }
   }
-  std::vector<SolutionLoop> loops;
-  for (std::vector<LoopArc>& loop : chained(sheets, chain, arcs))
-    loops.emplace_back(plan, chain, target, joint, std::move(loop));
-  // A fold that was hit exactly is no solution of its own.
-  for (PlanSolution& point : single) {
-    const VectorX q = jointsOf(point, 6);
-    const bool is_fold = std::any_of(arcs.begin(), arcs.end(), [&](const LoopArc& arc) {
-      PlanSolution end;
-      return (sheets.exists(arc.from, arc.sign, end) && largestDifference(chain, jointsOf(end, 6), q) <= kSameEnd) ||
-             (sheets.exists(arc.to, arc.sign, end) && largestDifference(chain, jointsOf(end, 6), q) <= kSameEnd);
-    });
-    point.free = 0;
-    if (!is_fold) points.push_back(point);
-  }
-  return loops;
+  return found;
 }
 
-SolutionLoop::SolutionLoop(const ParallelPlan& plan, const SerialChain& chain, const Pose& target, int joint,
-                           std::vector<LoopArc> arcs)
-    : plan_(&plan), chain_(&chain), target_(target), joint_(joint), arcs_(std::move(arcs)) {}
+SolutionLoop::SolutionLoop(const SerialChain& chain, int joint, std::vector<LoopArc> arcs, ArcMember member)
+    : chain_(&chain), joint_(joint), arcs_(std::move(arcs)), member_(std::move(member)) {}
 
 std::array<int, 3> SolutionLoop::sign() const {
   std::array<int, 3> sign = arcs_.front().sign;
@@ -183,23 +80,10 @@ VectorX SolutionLoop::at(double u, const VectorX& near) const {
   const LoopArc& arc = arcs_[index];
   const double share = way - static_cast<double>(index);
   // Towards a fold the branches meet as a square root does; by the cosine the way runs through it evenly.
-  const double value = arcs_.size() == 1 && std::abs(arc.to - arc.from) > kTwoPi - kPoint
+  const double value = arcs_.size() == 1
                            ? arc.from + share * (arc.to - arc.from)
                            : 0.5 * (arc.from + arc.to) + 0.5 * (arc.from - arc.to) * std::cos(kPi * share);
-  Sheets sheets(*plan_, target_, near, joint_);
-  PlanSolution solution;
-  if (!sheets.exists(value, arc.sign, solution)) {
-    // In a fold itself the branch has its neutral sign.
-    double least = std::numeric_limits<double>::infinity();
-    for (const PlanSolution& one : sheets.at(value)) {
-      const double distance = largestDifference(*chain_, jointsOf(one, 6), near);
-      if (distance >= least) continue;
-      least = distance;
-      solution = one;
-    }
-    if (!std::isfinite(least)) return near;
-  }
-  return nearestTurns(*chain_, jointsOf(solution, 6), near);
+  return nearestTurns(*chain_, member_(arc, value, near), near);
 }
 
 Continuum SolutionLoop::describe(const VectorX& seed, bool ignore_limits) const {

@@ -1,7 +1,7 @@
 #ifndef SCREWLINE_SRC_IK_SOLUTION_LOOP_H
 #define SCREWLINE_SRC_IK_SOLUTION_LOOP_H
 
-#include <memory>
+#include <functional>
 #include <vector>
 
 #include "continuum.h"
@@ -16,12 +16,15 @@ struct LoopArc {
   std::array<int, 3> sign{};
 };
 
+/// The member of an arc with the free joint at a value; where the branch ends there and rounding left none, the one
+/// next to `near`.
+using ArcMember = std::function<VectorX(const LoopArc& arc, double value, const VectorX& near)>;
+
 /// A continuum of one dimension at a singular pose: a closed curve of solutions, exact members all the way round. Where
 /// the free joint turns back, two branches meet: one arc ends there and the next one begins.
 class SolutionLoop {
  public:
-  SolutionLoop(const ParallelPlan& plan, const SerialChain& chain, const Pose& target, int joint,
-               std::vector<LoopArc> arcs);
+  SolutionLoop(const SerialChain& chain, int joint, std::vector<LoopArc> arcs, ArcMember member);
 
   int joint() const { return joint_; }
   const std::vector<LoopArc>& arcs() const { return arcs_; }
@@ -34,17 +37,24 @@ class SolutionLoop {
   Continuum describe(const VectorX& seed, bool ignore_limits) const;
 
  private:
-  const ParallelPlan* plan_;
   const SerialChain* chain_;
-  Pose target_;
   int joint_;
   std::vector<LoopArc> arcs_;
+  ArcMember member_;
 };
 
-/// Every loop that has `joint` free. Solutions that turn out to be single points of the kind are added to `points`.
-/// Branches are looked for at every two degrees of the joint, and where the plan says that they are farthest in.
-std::vector<SolutionLoop> solutionLoops(const ParallelPlan& plan, const SerialChain& chain, const Pose& target,
-                                        const VectorX& seed, int joint, std::vector<PlanSolution>& points);
+/// Loops that have one joint free, and solutions of the kind that turn out to be single points.
+struct SolutionLoops {
+  std::vector<SolutionLoop> loops;
+  std::vector<PlanSolution> points;
+};
+
+/// Those that leave a joint of the pair free, in closed form. Plan and chain must outlive them.
+SolutionLoops loopsOfPair(const ParallelPlan& plan, const SerialChain& chain, const Pose& target);
+
+/// Those that have `joint` free, whichever it is: branches are looked for at every two degrees of it.
+SolutionLoops sampledLoops(const ParallelPlan& plan, const SerialChain& chain, const Pose& target, const VectorX& seed,
+                           int joint);
 
 }  // namespace screwline
 

@@ -250,38 +250,58 @@ void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSo
   takeAngles(question, answer);
 }
 
-std::vector<double> ParallelPlan::extremes(const Pose& target, const double* preferred, int joint) const {
-  std::vector<double> values;
-  const Question question = questionOf(target, preferred);
+/// The place runs on a circle, a + b e^(+-i angle), known from three of its points.
+ParallelSheet ParallelPlan::sheetOf(const Question& question, const Root& root, const DirectionSolution& pair) const {
+  std::array<Turn, 3> places;
+  std::array<Turn, 3> headings;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Turn turn = turnBy(0.5 * kPi * static_cast<double>(k));
+    placeOf(question, root.turn, pair.first_free ? turn : pair.first, pair.second_free ? turn : pair.second, places[k],
+            headings[k]);
+  }
+  const int axis = pair.first_free ? pair_axis_ : pair_axis_ + 1;
+  ParallelSheet::Circle circle;
+  circle.heading = headings[0];
+  circle.middle = {0.5 * (places[0].c + places[2].c), 0.5 * (places[0].s + places[2].s)};
+  circle.radius = {places[0].c - circle.middle.c, places[0].s - circle.middle.s};
+  const Turn quarter = headings[1] * headings[0].inverse();
+  circle.sense = std::copysign(1.0, quarter.s * sense_[static_cast<std::size_t>(axis)]);
+  PlanSolution fixed;
+  fixed.free = bitOf(axis);
+  fixed.sign = {root.sign, 0, pair.sign};
+  const auto fix = [&](int place, const Turn& turn) {
+    fixed.q[static_cast<std::size_t>(jointOf(place))] = sense_[static_cast<std::size_t>(place)] * turn.angle();
+  };
+  fix(single_axis_, root.turn);
+  fix(pair_axis_, pair.first);
+  fix(pair_axis_ + 1, pair.second);
+  ParallelSheet::PlaneJoints joints;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int place = first_parallel_ + static_cast<int>(i);
+    joints.joint[i] = static_cast<std::size_t>(jointOf(place));
+    joints.sense[i] = sense_[static_cast<std::size_t>(place)];
+  }
+  return ParallelSheet(*plane_, length_, joints, circle, fixed);
+}
+
+std::vector<ParallelSheet> ParallelPlan::sheets(const Pose& target) const {
+  std::vector<ParallelSheet> found;
+  const std::array<double, 6> preferred{};
+  const Question question = questionOf(target, preferred.data());
   const Roots roots = singleRoots(question);
-  const bool is_first = jointOf(pair_axis_) == joint;
   for (int i = 0; i < roots.count; ++i) {
     const Root& root = roots.roots[static_cast<std::size_t>(i)];
+    if (root.free) continue;
     Vector3 start;
     Vector3 goal;
     directions(question, root.turn, start, goal);
     DirectionSolutions pairs;
-    pair_->solve(start, goal, 0.0, 0.0, 0.0, pairs);
-    if (pairs.count == 0 || !(is_first ? pairs.begin()->first_free : pairs.begin()->second_free)) continue;
-    // The place runs on a circle: a + b e^(+-i angle), known from a half and a quarter turn.
-    std::array<Turn, 3> places;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Turn turn = turnBy(0.5 * kPi * static_cast<double>(k));
-      Turn heading;
-      placeOf(question, root.turn, is_first ? turn : pairs.begin()->first, is_first ? pairs.begin()->second : turn,
-              places[k], heading);
+    pair_->solve(start, goal, std::min(root.error, kMostError), 0.0, 0.0, pairs);
+    for (const DirectionSolution& pair : pairs) {
+      if (pair.first_free || pair.second_free) found.push_back(sheetOf(question, root, pair));
     }
-    const Turn middle{0.5 * (places[0].c + places[2].c), 0.5 * (places[0].s + places[2].s)};
-    // |place|^2 = constant + 2 (along cos(angle) + across sin(angle))
-    const double along = middle.c * (places[0].c - middle.c) + middle.s * (places[0].s - middle.s);
-    const double across = middle.c * (places[1].c - middle.c) + middle.s * (places[1].s - middle.s);
-    if (std::hypot(along, across) <= kNegligible * length_ * length_) continue;
-    // Both ways alike but for the sense in which the joint is counted.
-    const double sense = sense_[static_cast<std::size_t>(is_first ? pair_axis_ : pair_axis_ + 1)];
-    values.push_back(sense * std::atan2(across, along));
-    values.push_back(sense * std::atan2(-across, -along));
   }
-  return values;
+  return found;
 }
 
 std::array<int, 3> ParallelPlan::signsAt(const Pose& target, const double* q) const {

@@ -5,11 +5,6 @@
 #include "screwline/model/structure.h"
 
 namespace screwline {
-namespace {
-
-constexpr double kNoSlack = 1e-14;  // Of the length: a triangle this near to a line is one.
-
-}  // namespace
 
 std::optional<PlanarProblem> PlanarProblem::compile(const Turn& first_link, const Turn& second_link, double length) {
   PlanarProblem problem;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "screwline/ik/closed_form/direction_problem.h"
+#include "screwline/ik/closed_form/parallel_sheet.h"
 #include "screwline/ik/closed_form/plan.h"
 #include "screwline/ik/closed_form/planar_problem.h"
 #include "screwline/kinematics/inverse_outline.h"
@@ -36,9 +37,11 @@ class ParallelPlan {
   /// carried to the next: what rounding may have made impossible is kept, marked clamped. No allocation.
   void solve(const Pose& target, const double* preferred, ParallelSolutions& solutions) const;
 
-  /// Where the pair leaves one of its joints free (`joint`), the values [rad] at which the third parallel axis comes
-  /// nearest to the first and farthest from it; none where the distance does not change. `preferred` as in solve().
-  std::vector<double> extremes(const Pose& target, const double* preferred, int joint) const;
+  /// Where the pair leaves one of its joints free, and no stage before it does: solutions by that joint's value. The
+  /// plan must outlive them. Allocates.
+  std::vector<ParallelSheet> sheets(const Pose& target) const;
+  /// Whether `joint` is one of the pair.
+  bool isOfPair(int joint) const { return joint == jointOf(pair_axis_) || joint == jointOf(pair_axis_ + 1); }
 
   /// Signs of the branch that configuration `q` of six joints is on, as solve() would give them.
   std::array<int, 3> signsAt(const Pose& target, const double* q) const;
@@ -72,6 +75,7 @@ class ParallelPlan {
                   Answer& answer) const;
   void takeAngles(const Question& question, Answer& answer) const;
   bool solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair, Answer& answer) const;
+  ParallelSheet sheetOf(const Question& question, const Root& root, const DirectionSolution& pair) const;
   void directions(const Question& question, const Turn& single, Vector3& start, Vector3& goal) const;
   double preferredAngle(const Question& question, int axis) const;
   int jointOf(int axis) const { return reversed_ ? 5 - axis : axis; }

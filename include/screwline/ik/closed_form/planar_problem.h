@@ -28,6 +28,8 @@ struct PlanarSolutions {
 /// No allocation.
 class PlanarProblem {
  public:
+  static constexpr double kNoSlack = 1e-14;  ///< Of the length: a triangle this near to a line is one.
+
   /// Links from axis to axis at zero, as complex numbers [m]. `length` [m] is the chain's size. Empty where a link has
   /// no length.
   static std::optional<PlanarProblem> compile(const Turn& first_link, const Turn& second_link, double length);
