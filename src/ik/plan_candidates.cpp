@@ -66,7 +66,15 @@ std::vector<Candidate> candidatesOf(const TaskPlan& plan, const SerialChain& cha
     candidate.branch = plan.plan.branchName(solution);
     candidate.free = freeJointsOf(solution);
     candidate.merged = plan.plan.isDouble(solution);
-    if (!candidate.free.empty()) {
+    if (const std::optional<PlanSheet> sheet = plan.plan.sheetOf(target, solution)) {
+      candidate.member = [sheet = *sheet, n = chain.size(), joint = candidate.free.front()](const VectorX& preferred,
+                                                                                            VectorX& q) {
+        PlanSolution member;
+        if (!sheet.member(preferred[joint], member)) return false;
+        q = Eigen::Map<const VectorX>(member.q.data(), n);
+        return true;
+      };
+    } else if (!candidate.free.empty()) {
       const ClosedFormPlan* closed_form = &plan.plan;
       candidate.member = [closed_form, &chain, target, solution](const VectorX& preferred, VectorX& q) {
         return memberOf(*closed_form, chain, target, solution, preferred, q);

@@ -92,23 +92,26 @@ void ClosedFormPlan::foldSpherical() {
   start_in_tip_ = home_.inverse() * start_;
 }
 
+/// The point where the three axes meet is moved by the other three axes only.
+ClosedFormPlan::SphericalGoal ClosedFormPlan::sphericalGoal(const Pose& target) const {
+  if (shape_ == Shape::kWrist) return {target * start_in_tip_, before_ * target.R * after_};
+  return {home_.R * (target.R.transpose() * (start_ - target.p)) + home_.p, before_ * target.R.transpose() * after_};
+}
+
 void ClosedFormPlan::solveSpherical(const Pose& target, const double* preferred, PlanSolutions& solutions) const {
   const bool is_wrist = shape_ == Shape::kWrist;
-  // The point where the three axes meet is moved by the other three axes only.
-  const Vector3 goal =
-      is_wrist ? target * start_in_tip_ : Vector3(home_.R * (target.R.transpose() * (start_ - target.p)) + home_.p);
+  const SphericalGoal goal = sphericalGoal(target);
   PositionSolutions arms;
-  position_->solveInTurns(start_, goal, wishedOf(preferred), arms);
-  const Matrix3 M = before_ * (is_wrist ? target.R : Matrix3(target.R.transpose())) * after_;
+  position_->solveInTurns(start_, goal.point, wishedOf(preferred), arms);
   std::array<Matrix3, 4> rest;
   std::array<double, 4> error{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(arms.count); ++i) {
     PositionSolution& arm = arms.solutions[i];
-    rest[i] = M;
+    rest[i] = goal.M;
     others_.undo(arm.turn, rest[i]);
     if (std::abs(rest[i](2, 2)) > kAlmostInLine) {  // Whether axes 1 and 3 are in line is for every digit to say.
-      error[i] = position_->refine(start_, goal, arm);
-      rest[i] = M;
+      error[i] = position_->refine(start_, goal.point, arm);
+      rest[i] = goal.M;
       others_.undo(arm.turn, rest[i]);
     }
     if (!is_wrist) rest[i].transposeInPlace();

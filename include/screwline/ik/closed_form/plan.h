@@ -57,6 +57,8 @@ struct BranchPart {
   std::string neutral;
 };
 
+class PlanSheet;
+
 /// Inverse kinematics of a chain for a task, compiled once from the geometry of its axes into two small problems: the
 /// position of a point moved by three axes, and an orientation by three. Task rows that are missing become slides that
 /// cost nothing; a heading is taken by the last turn; a spherical wrist (or shoulder) gives the point. Before a plan is
@@ -70,6 +72,10 @@ class ClosedFormPlan {
   /// All solutions for a pose of the tip. `preferred` (n values) sets free joints. No allocation.
   void solve(const Pose& target, const double* preferred, PlanSolutions& solutions) const;
 
+  /// The continuum of a solution with one free joint, where that joint moves none of the others that place the
+  /// spherical axes' point (which lies on its axis); empty elsewhere. The plan must outlive it. No allocation.
+  std::optional<PlanSheet> sheetOf(const Pose& target, const PlanSolution& solution) const;
+
   /// As "position by three joints (axes that meet), spherical wrist".
   const std::string& method() const { return method_; }
   const std::vector<BranchPart>& branchParts() const { return parts_; }
@@ -80,7 +86,13 @@ class ClosedFormPlan {
   std::string branchName(const PlanSolution& solution) const;
 
  private:
+  friend class PlanSheet;
   enum class Shape { kPosition, kOrientation, kWrist, kShoulder, kHeading };
+  /// What is left for the other axes and the spherical ones.
+  struct SphericalGoal {
+    Vector3 point;  ///< Where the other axes have to bring the point in which the spherical ones meet.
+    Matrix3 M;      ///< In front of which the other axes' turns are undone.
+  };
 
   bool compileShape(const SerialChain& chain, const Task& task);
   bool compilePosition(const Task& task);
@@ -97,7 +109,9 @@ class ClosedFormPlan {
   std::array<double, 3> wishedOf(const double* preferred) const;
   void solvePosition(const Vector3& goal, const double* preferred, PlanSolutions& solutions) const;
   void solveOrientation(const Pose& target, const double* preferred, PlanSolutions& solutions) const;
+  SphericalGoal sphericalGoal(const Pose& target) const;
   void solveSpherical(const Pose& target, const double* preferred, PlanSolutions& solutions) const;
+  const PositionSolution* armOf(const PlanSolution& solution, const PositionSolutions& arms) const;
   void solveHeading(const Pose& target, const double* preferred, PlanSolutions& solutions) const;
   void solveTurningSlides(const Matrix3& turn, const Vector3& goal, const double* preferred,
                           PlanSolutions& solutions) const;
@@ -128,6 +142,24 @@ class ClosedFormPlan {
       false;  ///< Slides behind the heading joint turn with it: the position problem is compiled per pose.
   std::string method_;
   std::vector<BranchPart> parts_;
+};
+
+/// Solutions on one branch of a continuum by the value of its one free joint, the arm's others standing still: the
+/// spherical axes alone follow it (a spherical four-bar linkage). See ClosedFormPlan::sheetOf().
+class PlanSheet {
+ public:
+  /// False where the branch has none. No allocation.
+  bool member(double value, PlanSolution& solution) const;
+
+ private:
+  friend class ClosedFormPlan;
+  PlanSheet() = default;
+
+  const ClosedFormPlan* plan_ = nullptr;
+  PositionSolution arm_;
+  std::size_t axis_ = 0;  ///< The free one, of the arm's three.
+  PlanSolution branch_;   ///< With the arm's joints.
+  Matrix3 M_;
 };
 
 }  // namespace screwline
