@@ -31,7 +31,7 @@ bool completeAlmostSingular(const SerialChain& chain, const Task& task, const Po
       return std::any_of(mates.begin(), mates.end(), [&](const IkAnswer& mate) { return isAt(mate, place, distance); });
     };
     // What points somewhere has rows of its own in the residual.
-    const SmallSvd* known = task.pointingAxis() < 0 ? builder.decompositionAt(answers[i].position) : nullptr;
+    const WeakDirections* known = task.pointingAxis() < 0 ? builder.weakDirectionsAt(answers[i].position) : nullptr;
     const SolutionsAbout about = solutionsAbout(chain, task, target, answers[i].position, known, isAtHand);
     for (const VectorX& q : about.solutions) {
       Candidate candidate = unnamed(q);

@@ -29,6 +29,8 @@ constexpr double kMisplaced = 1e-4;   // [rad, m] No rounding moves a root of a 
 constexpr double kRecognised = 0.25;  // Of the way to the next root: what is nearer is this one.
 
 using Plane = Eigen::Vector2d;
+using Bordered = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 7>;
+using BorderedVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 7, 1>;
 
 /// Residual along the weak directions, r - s t - t^T K t / 2; the second component is that of the weakest.
 struct Reduced {
@@ -120,23 +122,24 @@ bool refine(TaskResidual& residual, const JointVector& q, double reach, TaskPoin
 
 /// By differences of the Jacobian, which lose fewer digits than those of the residual.
 /// @pre unknowns is 1 or 2; with 1 the reduced quantities of the first are left zero.
-Reduced reducedAt(TaskResidual& residual, const TaskPoint& here, const SmallSvd& svd, Eigen::Index unknowns) {
-  const Eigen::Index first = here.q.size() - unknowns;  // Of the weak directions.
-  const auto weak = svd.V.rightCols(unknowns);
+Reduced reducedAt(TaskResidual& residual, const TaskPoint& here, const WeakDirections& weak, Eigen::Index unknowns) {
+  const Eigen::Index first = weak.sigma.size() - unknowns;
+  const auto U = weak.U.rightCols(unknowns);
+  const auto V = weak.V.rightCols(unknowns);
   Reduced reduced{Plane::Zero(), Plane::Zero(), {Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()}};
   for (Eigen::Index k = 0; k < unknowns; ++k) {
     TaskPoint ahead;
-    ahead.q = here.q + kProbe * weak.col(k);
+    ahead.q = here.q + kProbe * V.col(k);
     residual.evaluate(ahead);
-    const SmallMatrix bend = svd.U.rightCols(unknowns).transpose() * SmallMatrix((ahead.J - here.J) / kProbe) * weak;
+    const SmallMatrix bend = U.transpose() * SmallMatrix((ahead.J - here.J) / kProbe) * V;
     for (Eigen::Index i = 0; i < unknowns; ++i) {
       Eigen::Matrix2d& K = reduced.K[static_cast<std::size_t>(2 - unknowns + i)];
       K.row(2 - unknowns + k).tail(unknowns) = bend.row(i);
     }
   }
   for (Eigen::Index i = 0; i < unknowns; ++i) {
-    reduced.r[2 - unknowns + i] = svd.U.col(first + i).dot(here.residual);
-    reduced.s[2 - unknowns + i] = svd.sigma[first + i];
+    reduced.r[2 - unknowns + i] = U.col(i).dot(here.residual);
+    reduced.s[2 - unknowns + i] = weak.sigma[first + i];
   }
   for (Eigen::Matrix2d& K : reduced.K) K = (0.5 * (K + K.transpose())).eval();
   return reduced;
@@ -155,21 +158,27 @@ bool areOne(TaskResidual& residual, const JointVector& a, const JointVector& b) 
 }
 
 /// Whether the pose is met to rounding a good way along the weakest direction too: what the others can make up for is
-/// taken away.
-bool isFlat(TaskResidual& residual, const TaskPoint& here, const SmallSvd& svd) {
-  const Eigen::Index strong = here.q.size() - 1;
+/// taken away, by Newton's method across it on the Jacobian bordered by its vectors, which is regular.
+bool isFlat(TaskResidual& residual, const TaskPoint& here, const WeakDirections& weak) {
+  const Eigen::Index n = here.q.size();
+  const auto u = weak.U.rightCols<1>();
+  const auto v = weak.V.rightCols<1>();
   TaskPoint point;
-  point.q = here.q + kFarAlong * svd.V.col(strong);
+  point.q = here.q + kFarAlong * v;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMaxSteps; ++k) {
     residual.evaluate(point);
     const double size = point.residual.norm();
-    if (!(size < 0.5 * least)) break;
+    if (size <= noiseOf(residual)) return true;
+    if (!(size < 0.5 * least)) return false;
     least = size;
-    const SmallVector along = svd.U.leftCols(strong).transpose() * point.residual;
-    point.q += svd.V.leftCols(strong) * along.cwiseQuotient(svd.sigma.head(strong));
+    Bordered A(n + 1, n + 1);
+    A << point.J, u, v.transpose(), 0.0;
+    BorderedVector right(n + 1);
+    right << point.residual, 0.0;
+    point.q += A.partialPivLu().solve(right).head(n);
   }
-  return least <= noiseOf(residual);
+  return false;
 }
 
 /// How near to a root a solution has to be to be this one: nearer than to the other roots, and than q is.
@@ -184,20 +193,20 @@ double recognisedWithin(const std::vector<Plane>& roots, const Plane& root) {
 }  // namespace
 
 SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q,
-                              const SmallSvd* known, const IsAtHand& at_hand) {
+                              const WeakDirections* known, const IsAtHand& at_hand) {
   TaskResidual residual(chain, task, target, 1.0);
   TaskPoint here;
   here.q = q;
   residual.evaluate(here);
-  std::optional<SmallSvd> made;
-  const SmallSvd& svd = known != nullptr ? *known : made.emplace(here.J);
-  const Eigen::Index last = q.size() - 1;
+  std::optional<WeakDirections> made;
+  const WeakDirections& weak = known != nullptr ? *known : made.emplace(weakDirectionsOf(SmallSvd(here.J)));
+  const Eigen::Index last = weak.sigma.size() - 1;
   SolutionsAbout about;
-  if (svd.sigma[last] > kNearSingular * svd.sigma[0]) return about;
-  const Eigen::Index unknowns = last > 0 && svd.sigma[last - 1] < kTwiceSingular * svd.sigma[0] ? 2 : 1;
-  const Reduced reduced = reducedAt(residual, here, svd, unknowns);
-  if (svd.sigma[last] < kOnContinuum && std::abs(reduced.K[1](1, 1)) < kStraight) {
-    about.is_told = !isFlat(residual, here, svd);
+  if (weak.sigma[last] > kNearSingular * weak.largest) return about;
+  const Eigen::Index unknowns = last > 0 && weak.sigma[last - 1] < kTwiceSingular * weak.largest ? 2 : 1;
+  const Reduced reduced = reducedAt(residual, here, weak, unknowns);
+  if (weak.sigma[last] < kOnContinuum && std::abs(reduced.K[1](1, 1)) < kStraight) {
+    about.is_told = !isFlat(residual, here, weak);
     return about;
   }
   std::vector<Plane> roots = unknowns == 1 ? rootsOfOne(reduced) : rootsOfTwo(reduced);
@@ -208,8 +217,8 @@ SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const 
   for (const Plane& root : roots) {
     if (!(root.norm() < kFarthest)) break;
     TaskPoint point;
-    point.q = here.q + root[1] * svd.V.col(last);
-    if (unknowns == 2) point.q += root[0] * svd.V.col(last - 1);
+    point.q = here.q + root[1] * weak.V.col(last);
+    if (unknowns == 2) point.q += root[0] * weak.V.col(last - 1);
     // Where q may be none itself, the root next to it decides; the others need not be found again.
     if (itself && at_hand(point.q, recognisedWithin(roots, root))) continue;
     if (!refine(residual, here.q, 2.0 * root.norm(), point)) continue;

@@ -6,7 +6,7 @@
 
 #include "screwline/ik/task_error.h"
 #include "screwline/model/serial_chain.h"
-#include "screwline/spatial/small_svd.h"
+#include "screwline/spatial/weak_directions.h"
 
 namespace screwline {
 
@@ -23,9 +23,9 @@ struct SolutionsAbout {
 /// Along the one or two directions that the task Jacobian maps to almost nothing, the residual is a quadratic in one or
 /// two unknowns (Lyapunov and Schmidt's reduction, to the second order): from each of its up to four roots Newton's
 /// method goes on. Nothing where q is regular. As many joints as rows. Allocates.
-/// @param known the task Jacobian's decomposition at q; null: it is made.
+/// @param known of the task Jacobian at q; null: they are found.
 SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q,
-                              const SmallSvd* known, const IsAtHand& at_hand);
+                              const WeakDirections* known, const IsAtHand& at_hand);
 
 }  // namespace screwline
 

@@ -58,15 +58,15 @@ std::optional<IkAnswer> SolutionBuilder::build(Candidate candidate) const {
     verify(solution);
   }
   if (!isSolution(solution)) return std::nullopt;
-  if (conditioning.svd && candidate.free.empty() && !moved) {
-    nearly_singular_.emplace_back(solution.position, *conditioning.svd);
+  if (conditioning.weak && candidate.free.empty() && !moved) {
+    nearly_singular_.emplace_back(solution.position, *conditioning.weak);
   }
   return solution;
 }
 
-const SmallSvd* SolutionBuilder::decompositionAt(const VectorX& position) const {
-  for (const auto& [place, svd] : nearly_singular_) {
-    if (place == position) return &svd;
+const WeakDirections* SolutionBuilder::weakDirectionsAt(const VectorX& position) const {
+  for (const auto& [place, weak] : nearly_singular_) {
+    if (place == position) return &weak;
   }
   return nullptr;
 }

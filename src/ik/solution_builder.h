@@ -28,9 +28,9 @@ class SolutionBuilder {
   /// The same numbers for a configuration that need not be a solution.
   IkAnswer describe(const VectorX& q) const;
 
-  /// Of the task Jacobian at the position of an answer that was built, where it is nearly singular; null elsewhere.
+  /// Of the task Jacobian at the position of an answer that was built, where this is nearly singular; null elsewhere.
   /// Points into the builder, until it builds again.
-  const SmallSvd* decompositionAt(const VectorX& position) const;
+  const WeakDirections* weakDirectionsAt(const VectorX& position) const;
 
   /// Whether the seed itself meets the pose (and the limits, where they are honoured).
   bool seedSolves() const;
@@ -46,7 +46,7 @@ class SolutionBuilder {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   mutable Matrix6X jacobian_;    ///< Of the configuration verified last. A builder serves one request, in one thread.
   mutable Matrix3 orientation_;  ///< Its tip's.
-  mutable std::vector<std::pair<VectorX, SmallSvd>> nearly_singular_;  ///< Isolated ones.
+  mutable std::vector<std::pair<VectorX, WeakDirections>> nearly_singular_;  ///< Isolated ones.
 };
 
 /// A redundant chain's solution lies on its self-motion; told here to first order, its range is not traced.

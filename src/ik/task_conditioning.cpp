@@ -16,13 +16,23 @@ constexpr double kClearShare = 1e-6;
 constexpr double kConverged = 1e-14;  ///< Of the eigenvalue.
 constexpr int kMaxSteps = 30;
 
-TaskConditioning bySingularValues(const MatrixX& J, double noise) {
+TaskConditioning ofSingularValues(double smallest, double largest, double product, double noise) {
   TaskConditioning result;
-  if (J.rows() == J.cols()) result.svd.emplace(J);
-  const VectorX sigma = result.svd ? VectorX(result.svd->sigma) : singularValues(J);
-  result.smallest = std::max({sigma.minCoeff(), kRankTolerance * sigma.maxCoeff(), 1e-12});
-  result.manipulability = sigma.prod();
-  result.full_rank = rankOf(sigma, noise) == sigma.size();
+  result.smallest = std::max({smallest, kRankTolerance * largest, 1e-12});
+  result.manipulability = product;
+  result.full_rank = smallest > std::max(kRankTolerance * largest, noise);
+  return result;
+}
+
+/// @param largest singular value; 0: not known.
+TaskConditioning bySingularValues(const MatrixX& J, double largest, double noise) {
+  if (J.rows() != J.cols()) {
+    const VectorX sigma = singularValues(J);
+    return ofSingularValues(sigma.minCoeff(), sigma.maxCoeff(), sigma.prod(), noise);
+  }
+  const WeakDirections weak = largest > 0.0 ? weakDirectionsOf(J, largest) : weakDirectionsOf(SmallSvd(J));
+  TaskConditioning result = ofSingularValues(weak.sigma[weak.sigma.size() - 1], weak.largest, weak.product, noise);
+  result.weak = weak;
   return result;
 }
 
@@ -67,10 +77,13 @@ LeastEigenvalue leastEigenvalue(const Diagonal& d, const OffDiagonal& e) {
   return least;
 }
 
-/// From G = J J^T or J^T J, whichever is smaller; manipulability is sqrt(det G). Empty where squaring would cost too
-/// many digits.
 template <typename Matrix>
-std::optional<TaskConditioning> byEigenvalues(Matrix G, double noise) {
+using VectorOf = Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1, 0, Matrix::MaxRowsAtCompileTime, 1>;
+
+/// From G = J J^T or J^T J, whichever is smaller; manipulability is sqrt(det G). Empty where squaring would cost too
+/// many digits: then with the largest singular value, which it does not.
+template <typename Matrix>
+std::optional<TaskConditioning> byEigenvalues(Matrix G, double noise, double& largest) {
   const double sum = G.trace();  // Of the eigenvalues: no less than the largest.
   if (!(sum > 0.0)) return std::nullopt;
   G /= sum;
@@ -78,6 +91,10 @@ std::optional<TaskConditioning> byEigenvalues(Matrix G, double noise) {
   if (G.rows() > 1) {
     const Eigen::Tridiagonalization<Matrix> T(G);
     least = leastEigenvalue(T.diagonal(), T.subDiagonal());
+    if (!(least.value > kClearShare)) {
+      const VectorOf<Matrix> rest = 1.0 - T.diagonal().array();
+      largest = std::sqrt(sum * (1.0 - leastEigenvalue(rest, T.subDiagonal()).value));
+    }
   }
   const double smallest = std::sqrt(sum * std::max(0.0, least.value));
   if (!(least.value > kClearShare) || !(smallest > noise)) return std::nullopt;
@@ -89,21 +106,21 @@ std::optional<TaskConditioning> byEigenvalues(Matrix G, double noise) {
 }
 
 /// A whole pose of six joints: sizes that the compiler knows make it twice as fast.
-std::optional<TaskConditioning> ofSixJoints(const MatrixX& task_jacobian, double noise) {
+std::optional<TaskConditioning> ofSixJoints(const MatrixX& task_jacobian, double noise, double& largest) {
   const Matrix6 J = task_jacobian;
-  std::optional<TaskConditioning> result = byEigenvalues<Matrix6>(J * J.transpose(), noise);
+  std::optional<TaskConditioning> result = byEigenvalues<Matrix6>(J * J.transpose(), noise, largest);
   if (result) result->manipulability = std::abs(J.partialPivLu().determinant());
   return result;
 }
 
-std::optional<TaskConditioning> ofAnySize(const MatrixX& J, double noise) {
+std::optional<TaskConditioning> ofAnySize(const MatrixX& J, double noise, double& largest) {
   SmallMatrix G;
   if (J.rows() <= J.cols()) {
     G.noalias() = J.lazyProduct(J.transpose());
   } else {
     G.noalias() = J.transpose().lazyProduct(J);
   }
-  std::optional<TaskConditioning> result = byEigenvalues(G, noise);
+  std::optional<TaskConditioning> result = byEigenvalues(G, noise, largest);
   if (result && J.rows() == J.cols()) {
     result->manipulability = std::abs(SmallMatrix(J).partialPivLu().determinant());
   }
@@ -114,9 +131,10 @@ std::optional<TaskConditioning> ofAnySize(const MatrixX& J, double noise) {
 
 TaskConditioning conditioningOf(const MatrixX& task_jacobian, double noise) {
   const bool is_six = task_jacobian.rows() == 6 && task_jacobian.cols() == 6;
+  double largest = 0.0;
   const std::optional<TaskConditioning> result =
-      is_six ? ofSixJoints(task_jacobian, noise) : ofAnySize(task_jacobian, noise);
-  return result ? *result : bySingularValues(task_jacobian, noise);
+      is_six ? ofSixJoints(task_jacobian, noise, largest) : ofAnySize(task_jacobian, noise, largest);
+  return result ? *result : bySingularValues(task_jacobian, largest, noise);
 }
 
 }  // namespace screwline

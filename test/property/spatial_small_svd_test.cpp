@@ -1,6 +1,7 @@
 // The small singular value decomposition against Eigen's, on matrices of every rank.
 
 #include "screwline/spatial/small_svd.h"
+#include "screwline/spatial/weak_directions.h"
 
 #include <gtest/gtest.h>
 
@@ -75,6 +76,63 @@ TEST(SmallSvd, ColumnsThatVanishOrRepeat) {
   const SmallSvd zero{SmallMatrix(MatrixX::Zero(6, 6))};
   EXPECT_LE(zero.sigma[0], 1e-100);
   EXPECT_TRUE(zero.U.allFinite() && zero.V.allFinite());
+}
+
+/// Against the whole decomposition, and by what the vectors do.
+void expectWeak(const MatrixX& A) {
+  SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", A =\n" << A);
+  const SmallSvd svd{SmallMatrix(A)};
+  const WeakDirections weak = weakDirectionsOf(SmallMatrix(A), svd.sigma[0]);
+  const Eigen::Index count = std::min<Eigen::Index>(2, A.rows());
+  ASSERT_EQ(weak.sigma.size(), count);
+  const double most = std::max(svd.sigma[0], 1e-100);
+  const bool second_weak = count == 2 && svd.sigma[A.rows() - 2] < 1e-3 * most;
+  for (Eigen::Index i = count - 1; i >= 0; --i) {
+    if (i == 0 && count == 2 && !second_weak) break;
+    EXPECT_NEAR(weak.sigma[i], svd.sigma[A.rows() - count + i], kTolerance * most);
+    EXPECT_LE((A * weak.V.col(i) - weak.sigma[i] * weak.U.col(i)).norm(), 10.0 * kTolerance * most);
+    EXPECT_LE((A.transpose() * weak.U.col(i) - weak.sigma[i] * weak.V.col(i)).norm(), 10.0 * kTolerance * most);
+  }
+  if (count == 2 && !second_weak) {
+    EXPECT_GE(weak.sigma[0], 1e-3 * most * (1.0 - 1e-12));
+  }
+  const MatrixX I = MatrixX::Identity(count, count);
+  EXPECT_LE((weak.U.transpose() * weak.U - I).norm(), kTolerance);
+  EXPECT_LE((weak.V.transpose() * weak.V - I).norm(), kTolerance);
+  EXPECT_NEAR(weak.product, svd.sigma.prod(), kTolerance * std::pow(most, A.rows()));
+}
+
+TEST(WeakDirections, OfNearlySingularMatrices) {
+  std::mt19937 random(kSeed);
+  for (Eigen::Index n = 1; n <= 6; ++n) {
+    for (Eigen::Index weak = 1; weak < n; ++weak) {
+      for (const double small : {1e-3, 1e-5, 1e-8, 1e-13, 1e-18, 0.0}) {
+        for (int k = 0; k < 10; ++k) expectWeak(nearlySingular(n, weak, small, random));
+      }
+    }
+  }
+}
+
+TEST(WeakDirections, OfAnyOther) {
+  std::mt19937 random(kSeed);
+  for (Eigen::Index n = 1; n <= 6; ++n) {
+    for (int k = 0; k < 30; ++k) expectWeak(randomMatrix(n, random));
+    expectWeak(MatrixX::Identity(n, n));
+    MatrixX A = randomMatrix(n, random);
+    A.row(0) = A.row(n - 1);
+    A.col(0).setZero();
+    expectWeak(A);
+  }
+  // Two weak ones of different size, which the values of both tell apart.
+  MatrixX A = MatrixX::Identity(6, 6);
+  A(2, 2) = 1e-6;
+  A(4, 4) = 3e-12;
+  const MatrixX Q = randomMatrix(6, random).householderQr().householderQ();
+  const MatrixX B = Q * A * Q;
+  expectWeak(B);
+  const WeakDirections weak = weakDirectionsOf(SmallMatrix(B), 1.0);
+  EXPECT_NEAR(weak.sigma[0], 1e-6, 1e-15);
+  EXPECT_NEAR(weak.sigma[1], 3e-12, 1e-15);
 }
 
 }  // namespace
