@@ -158,25 +158,26 @@ bool areOne(TaskResidual& residual, const JointVector& a, const JointVector& b) 
 }
 
 /// Whether the pose is met to rounding a good way along the weakest direction too: what the others can make up for is
-/// taken away, by Newton's method across it on the Jacobian bordered by its vectors, which is regular.
+/// taken away, with the Jacobian bordered by its vectors, which is regular.
 bool isFlat(TaskResidual& residual, const TaskPoint& here, const WeakDirections& weak) {
   const Eigen::Index n = here.q.size();
   const auto u = weak.U.rightCols<1>();
   const auto v = weak.V.rightCols<1>();
+  Bordered A(n + 1, n + 1);
+  A << here.J, u, v.transpose(), 0.0;
+  const Eigen::PartialPivLU<Bordered> across(A);
   TaskPoint point;
   point.q = here.q + kFarAlong * v;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMaxSteps; ++k) {
     residual.evaluate(point);
     const double size = point.residual.norm();
-    if (size <= noiseOf(residual)) return true;
     if (!(size < 0.5 * least)) return false;
+    if (size <= noiseOf(residual)) return true;
     least = size;
-    Bordered A(n + 1, n + 1);
-    A << point.J, u, v.transpose(), 0.0;
     BorderedVector right(n + 1);
     right << point.residual, 0.0;
-    point.q += A.partialPivLu().solve(right).head(n);
+    point.q += across.solve(right).head(n);
   }
   return false;
 }

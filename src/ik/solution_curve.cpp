@@ -12,6 +12,7 @@ namespace {
 constexpr double kMoves = 1e-7;       // A joint whose range is smaller does not move.
 constexpr double kDifference = 2e-6;  // Of the period, for tangents.
 constexpr double kValue = 1e-14;      // [rad, m] that a joint's extreme value still gains.
+constexpr double kWider = 10.0;       // Differences, where rounding hides them.
 constexpr int kMostSteps = 12;
 
 /// Joints that move along the run.
@@ -136,7 +137,7 @@ CurveSample SolutionCurve::nearestAbout(const CurveSample& start, double from, d
   };
   CurveSample best = start;
   double least = distanceOf(best);
-  const double h = kDifference * period_;
+  double h = kDifference * period_;
   for (int k = 0; k < kMostSteps && best.at - h >= from && best.at + h <= to; ++k) {
     const CurveSample ahead = sampleAt(best.at + h, best.q);
     const CurveSample behind = sampleAt(best.at - h, best.q);
@@ -145,6 +146,10 @@ CurveSample SolutionCurve::nearestAbout(const CurveSample& start, double from, d
     const VectorX rate = (ahead.q - behind.q) / (2.0 * h);
     const double bend = (ahead.q - 2.0 * best.q + behind.q).dot(away) / (h * h);
     const double steepness = rate.squaredNorm() + std::max(bend, -0.5 * rate.squaredNorm());
+    if (!(steepness > 0.0)) {  // Rounding has put the three members on one place.
+      h *= kWider;
+      continue;
+    }
     double step = -rate.dot(away) / steepness;
     bool moved = false;
     for (int half = 0; half < 10 && !moved; ++half, step *= 0.5) {

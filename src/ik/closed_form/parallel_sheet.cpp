@@ -27,7 +27,7 @@ ParallelSheet::ParallelSheet(const PlanarProblem& plane, double length, const Pl
     : plane_(&plane), length_(length), joints_(joints), circle_(circle), fixed_(fixed), free_(lowestBit(fixed.free)) {}
 
 /// By the angle from where the place is farthest: distance^2 = far^2 - 4 m r sin^2(angle / 2)
-/// = near^2 + 4 m r cos^2(angle / 2) with the lengths m, r of middle and radius.
+/// = near^2 + 4 m r cos^2(angle / 2) with the lengths m, r of middle and radius; so tan(angle / 2) is known.
 std::vector<SheetStretch> ParallelSheet::stretches() const {
   const double m = lengthOf(circle_.middle);
   const double r = lengthOf(circle_.radius);
@@ -46,11 +46,12 @@ std::vector<SheetStretch> ParallelSheet::stretches() const {
   const bool is_folded = near <= least + exact;
   const bool touches_most = far <= most + exact;
   const bool touches_least = near >= least - exact;
-  const auto share = [&](double a, double b) {
-    return std::sqrt(std::clamp((a - b) * (a + b) / (4.0 * m * r), 0.0, 1.0));
+  const auto angleAt = [&](double distance) {
+    const auto root = [](double a, double b) { return std::sqrt(std::max(0.0, (a - b) * (a + b))); };
+    return 2.0 * std::atan2(root(far, distance), root(distance, near));
   };
-  const double first = touches_most ? 0.0 : 2.0 * std::asin(share(far, most));
-  const double last = touches_least ? kPi : 2.0 * std::acos(share(least, near));
+  const double first = touches_most ? 0.0 : angleAt(most);
+  const double last = touches_least ? kPi : angleAt(least);
   if (!is_stretched && !is_folded) return {{farthest, farthest + kTwoPi}};
   if (!is_folded) return {{farthest + first, farthest + kTwoPi - first, touches_most, touches_most}};
   if (!is_stretched) return {{farthest - last, farthest + last, touches_least, touches_least}};
