@@ -270,24 +270,33 @@ bool SolutionCurve::nearestSample(const std::vector<CurveRun>& runs, const Vecto
   return std::isfinite(least);
 }
 
-/// Between a sample and its neighbours, those within limits where they are honoured.
+/// How far from a sample one may look to one side: to its neighbour, or to the next one where that is too near for
+/// differences; not beyond one that is outside limits, where they are honoured.
+double SolutionCurve::reachFrom(const CurveRun& run, std::size_t number, int way, const VectorX& seed,
+                                bool honour) const {
+  const auto last = static_cast<std::ptrdiff_t>(run.samples.size()) - 1;
+  const double start = run.samples[number].at;
+  double reach = start;
+  double round = 0.0;
+  for (auto i = static_cast<std::ptrdiff_t>(number) + way; std::abs(reach - start) <= 2.0 * kDifference * period_;
+       i += way) {
+    if (i < 0 || i > last) {
+      if (!run.closed) break;
+      round += way * period_;
+      i = way > 0 ? 1 : last - 1;
+    }
+    const CurveSample& sample = run.samples[static_cast<std::size_t>(i)];
+    if (honour && !chooseTurns(chain_, sample.q, seed, true, false, kLimitBand).within_limits) break;
+    reach = sample.at + round;
+  }
+  return reach;
+}
+
+/// Between a sample and its neighbours.
 CurveSample SolutionCurve::nearestIn(const CurveRun& run, std::size_t number, const VectorX& seed, bool honour) const {
   const std::vector<CurveSample>& samples = run.samples;
-  const std::size_t last = samples.size() - 1;
-  const auto bound = [&](const CurveSample& neighbour, double at) {
-    const bool ends = honour && !chooseTurns(chain_, neighbour.q, seed, true, false, kLimitBand).within_limits;
-    return ends ? samples[number].at : at;
-  };
-  double from = samples[number].at;
-  double to = from;
-  if (number > 0)
-    from = bound(samples[number - 1], samples[number - 1].at);
-  else if (run.closed)
-    from = bound(samples[last - 1], samples[last - 1].at - period_);
-  if (number < last)
-    to = bound(samples[number + 1], samples[number + 1].at);
-  else if (run.closed)
-    to = bound(samples[1], samples[1].at + period_);
+  const double from = reachFrom(run, number, -1, seed, honour);
+  const double to = reachFrom(run, number, 1, seed, honour);
   CurveSample nearest = nearestAbout(samples[number], from, to, seed, !honour);
   if (nearest.at < samples.front().at || nearest.at > samples.back().at) {
     const double round = nearest.at < samples.front().at ? 1.0 : -1.0;

@@ -57,6 +57,7 @@ class SolutionCurve {
   double leastSquare(const VectorX& q, const VectorX& seed) const;
   bool nearestSample(const std::vector<CurveRun>& runs, const VectorX& seed, bool honour, const CurveRun*& run,
                      std::size_t& number) const;
+  double reachFrom(const CurveRun& run, std::size_t number, int way, const VectorX& seed, bool honour) const;
   CurveSample nearestIn(const CurveRun& run, std::size_t number, const VectorX& seed, bool honour) const;
   VectorX tangentAt(const CurveRun& run, const CurveSample& sample) const;
   void walk(const CurveRun& run, const CurveSample& nearest, Continuum& continuum) const;

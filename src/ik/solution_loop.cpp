@@ -22,7 +22,7 @@ std::vector<LoopArc> traced(const std::vector<SheetStretch>& stretches, std::siz
     const SheetStretch& stretch = stretches[i];
     seen[i][elbow > 0 ? 0 : 1] = true;
     arcs.push_back({upwards ? stretch.from : stretch.to, upwards ? stretch.to : stretch.from, {0, elbow, 0}});
-    if (stretch.isWhole() && !stretch.passes_to) break;
+    if (stretch.whole) break;
     if (upwards ? stretch.passes_to : stretch.passes_from) {
       i = (i + (upwards ? 1 : count - 1)) % count;
     } else {

@@ -39,7 +39,7 @@ std::vector<SheetStretch> ParallelSheet::stretches() const {
   if (far < least - exact || near > most + exact) return {};
   const double farthest = circle_.sense * (circle_.middle * circle_.radius.inverse()).angle();
   const bool all_straight = (near >= most - exact && far <= most + exact) || far <= least + exact;
-  if (all_straight && near >= least - exact) return {{farthest, farthest + kTwoPi, false, false, true}};
+  if (all_straight && near >= least - exact) return {{farthest, farthest + kTwoPi, false, false, true, true}};
   if (near >= most - exact) return {{farthest + kPi, farthest + kPi, false, false, true}};
   if (far <= least + exact) return {{farthest, farthest, false, false, true}};
   const bool is_stretched = far >= most - exact;
@@ -52,7 +52,7 @@ std::vector<SheetStretch> ParallelSheet::stretches() const {
   };
   const double first = touches_most ? 0.0 : angleAt(most);
   const double last = touches_least ? kPi : angleAt(least);
-  if (!is_stretched && !is_folded) return {{farthest, farthest + kTwoPi}};
+  if (!is_stretched && !is_folded) return {{farthest, farthest + kTwoPi, false, false, false, true}};
   if (!is_folded) return {{farthest + first, farthest + kTwoPi - first, touches_most, touches_most}};
   if (!is_stretched) return {{farthest - last, farthest + last, touches_least, touches_least}};
   return {{farthest + first, farthest + last, touches_most, touches_least},

@@ -17,9 +17,9 @@ struct SheetStretch {
   bool passes_from = false;  ///< The circle touches there: the free joint goes on.
   bool passes_to = false;
   bool straight = false;  ///< The elbow's signs are one all along; from = to: a point.
+  bool whole = false;     ///< No end: the links reach all round.
 
   bool isPoint() const { return from == to; }
-  bool isWhole() const { return to - from >= kTwoPi; }
 };
 
 /// Solutions of three parallel axes where the pair leaves one of its joints free: with that joint's value the place of
