@@ -13,7 +13,6 @@ constexpr double kRounding = 4e-15;    // Of a length over the chain's.
 constexpr double kNegligible = 1e-13;  // The same: terms below it are rounding.
 constexpr double kTightError = 1e-9;   // [rad] of the pair: below it what is out of reach is so but for a little.
 constexpr double kMostError = 1e-2;    // [rad] that is carried on: what is worse is left to other methods.
-constexpr double kAmplified = 1e2;     // Error of the pair over the single joint's: beyond it the pair is loose itself.
 
 }  // namespace
 
@@ -144,7 +143,7 @@ void ParallelPlan::solvePair(const Question& question, const Root& root, Answer&
     if (pair.first_free) solutions.open |= bitOf(pair_axis_);
     if (pair.second_free) solutions.open |= bitOf(pair_axis_ + 1);
     const bool free = root.free || pair.first_free || pair.second_free;
-    solutions.loose = solutions.loose || (!free && pair.error > std::max(kTightError, kAmplified * root.error));
+    solutions.loose = solutions.loose || (!free && pair.error > kMostError);
     if (free || pair.error <= kTightError) {
       solvePlane(question, root, pair, root.error + pair.error, answer);
     } else if (!solvePlane(question, root, pair, 0.0, answer) && !solveLoosely(question, root, pair, answer)) {
