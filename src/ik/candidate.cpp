@@ -26,10 +26,7 @@ std::vector<Candidate> rootsOf(const AlgebraicSolver& solver, const Pose& target
 void bringNear(const SerialChain& chain, const VectorX& reference, VectorX& q) {
   for (int i = 0; i < chain.size(); ++i) {
     const double apart = q[i] - reference[i];
-    // The remainder is slow, and most often what it is taken of.
-    if (chain.joint(i).isRevolute() && !(std::abs(apart) <= kPi)) {
-      q[i] = reference[i] + std::remainder(apart, kTwoPi);
-    }
+    if (chain.joint(i).isRevolute() && !(std::abs(apart) <= kPi)) q[i] = reference[i] + withoutTurns(apart);
   }
 }
 
@@ -43,7 +40,7 @@ namespace {
 double jointDifference(const SerialChain& chain, const Eigen::Ref<const VectorX>& a, const Eigen::Ref<const VectorX>& b,
                        int i) {
   const double difference = std::abs(a[i] - b[i]);
-  return difference > kPi && chain.joint(i).isRevolute() ? std::abs(std::remainder(difference, kTwoPi)) : difference;
+  return difference > kPi && chain.joint(i).isRevolute() ? std::abs(withoutTurns(difference)) : difference;
 }
 
 }  // namespace

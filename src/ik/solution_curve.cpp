@@ -30,12 +30,21 @@ std::vector<int> movingJoints(const CurveRun& run) {
   return joints;
 }
 
+/// Half the second derivative of the parabola through three members' values of a joint.
+double bendOf(const CurveSample& a, const CurveSample& b, const CurveSample& c, int joint) {
+  const double left = (b.q[joint] - a.q[joint]) / (b.at - a.at);
+  const double right = (c.q[joint] - b.q[joint]) / (c.at - b.at);
+  return (right - left) / (c.at - a.at);
+}
+
 /// Where the parabola through three members' values of a joint turns back; NaN where they lie on a line.
 double vertexOf(const CurveSample& a, const CurveSample& b, const CurveSample& c, int joint) {
   const double left = (b.q[joint] - a.q[joint]) / (b.at - a.at);
-  const double right = (c.q[joint] - b.q[joint]) / (c.at - b.at);
-  const double bend = (right - left) / (c.at - a.at);
-  return 0.5 * (a.at + b.at) - 0.5 * left / bend;
+  return 0.5 * (a.at + b.at) - 0.5 * left / bendOf(a, b, c, joint);
+}
+
+double square(double x) {
+  return x * x;
 }
 
 }  // namespace
@@ -48,6 +57,7 @@ CurveSample SolutionCurve::turningPoint(CurveSample before, CurveSample middle, 
     const double vertex = vertexOf(before, middle, behind, joint);
     if (!(vertex > from && vertex < to)) break;
     if (std::abs(vertex - middle.at) <= kFine * period_ || vertex == before.at || vertex == behind.at) break;
+    if (k > 0 && std::abs(bendOf(before, middle, behind, joint)) * square(vertex - middle.at) <= kValue) break;
     CurveSample next = sampleAt(vertex, middle.q);
     if (!next.exists()) break;
     const double gain = std::abs(next.q[joint] - middle.q[joint]);

@@ -25,7 +25,7 @@ double wrapped(double value, double band) {
 
 /// The turn of `value` inside the limits nearest to `wish`; false where there is none.
 bool turnInside(const JointLimits& limits, double wish, double band, double& value) {
-  const double nearest = wish + std::remainder(value - wish, kTwoPi);
+  const double nearest = wish + withoutTurns(value - wish);
   const double lowest = nearest + kTwoPi * std::ceil((limits.lower - band - nearest) / kTwoPi);
   const double highest = nearest + kTwoPi * std::floor((limits.upper + band - nearest) / kTwoPi);
   for (double candidate : {nearest, nearest < limits.lower ? lowest : highest}) {
@@ -49,7 +49,7 @@ Turned chooseTurns(const SerialChain& chain, const VectorX& q, const VectorX& re
       const double wish = has_seed ? reference[i] : wrapped(value, 1e-12);
       if (!has_seed) value = wish;
       inside = turnInside(limits, wish, band, value);
-      if (!inside || ignore_limits) value = wish + std::remainder(value - wish, kTwoPi);
+      if (!inside || ignore_limits) value = wish + withoutTurns(value - wish);
       if (ignore_limits) inside = isInside(limits, value, band);
     }
     if (inside) value = onLimit(limits, value);

@@ -1,6 +1,8 @@
 #ifndef SCREWLINE_SPATIAL_ROTATION_H
 #define SCREWLINE_SPATIAL_ROTATION_H
 
+#include <cmath>
+
 #include "screwline/spatial/pose.h"
 
 namespace screwline {
@@ -25,6 +27,13 @@ Matrix3 orthonormalized(const Matrix3& M);
 
 /// Angle wrapped to (-pi, pi].
 double wrapAngle(double angle);
+
+/// std::remainder(angle, 2 pi) to the bit, in [-pi, pi]; most often a comparison, or a difference that is exact.
+inline double withoutTurns(double angle) {
+  const double size = std::abs(angle);
+  if (size <= kPi) return angle;
+  return size < 1.4 * kTwoPi ? angle - std::copysign(kTwoPi, angle) : std::remainder(angle, kTwoPi);
+}
 
 }  // namespace screwline
 
