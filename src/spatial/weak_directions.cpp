@@ -10,7 +10,7 @@ namespace screwline {
 namespace {
 
 constexpr double kFloor = 1e-30;    // Of the largest pivot, as SmallSvd has it.
-constexpr double kSettled = 1e-14;  // By which a step still moves a unit vector.
+constexpr double kSettled = 1e-14;  // By which a step may still move a unit vector.
 constexpr double kRoughly = 0.1;    // The same of a value that is not weak, relative.
 constexpr double kWeak = 1e-3;      // Of the largest singular value.
 constexpr int kMostSteps = 8;
@@ -77,9 +77,9 @@ Two orthonormalize(Vectors& x, std::size_t n) {
   for (int k = 0; k < kMostRotations; ++k) {
     const double c = dot(x, n);
     if (c * c <= kOrthogonal * kOrthogonal * square[0] * square[1]) break;
-    const double difference = square[1] - square[0];
-    const double length = std::hypot(difference, 2.0 * c);
-    const double tangent = std::copysign(2.0 * std::abs(c), difference * c) / (std::abs(difference) + length);
+    const double cotangent = (square[1] - square[0]) / (2.0 * c);  // Of twice the angle.
+    const double tangent =
+        std::copysign(1.0, cotangent) / (std::abs(cotangent) + std::sqrt(1.0 + cotangent * cotangent));
     const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
     const double sine = cosine * tangent;
     for (std::size_t i = 0; i < n; ++i) x[i] = {cosine * x[i][0] - sine * x[i][1], sine * x[i][0] + cosine * x[i][1]};
@@ -124,7 +124,8 @@ bool iterate(const Triangle& R, double largest, Vectors& U, Vectors& V, Two& sig
     V = next;
     const bool second =
         sigma[1] > kWeak * largest ? std::abs(known[1] - sigma[1]) <= kRoughly * sigma[1] : change[1] <= kSettled;
-    if (change[0] <= kSettled && second) return true;
+    // Half a step on, where U is, it would be less by the ratio of the values.
+    if (change[0] * sigma[0] <= kSettled * sigma[1] && second) return true;
   }
   return false;
 }
