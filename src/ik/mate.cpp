@@ -153,7 +153,7 @@ double noiseOf(const TaskResidual& residual) {
 bool areOne(TaskResidual& residual, const JointVector& a, const JointVector& b) {
   TaskPoint middle;
   middle.q = 0.5 * (a + b);
-  residual.evaluate(middle);
+  residual.evaluateResidual(middle);
   return middle.residual.norm() <= noiseOf(residual);
 }
 
@@ -170,7 +170,7 @@ bool isFlat(TaskResidual& residual, const TaskPoint& here, const WeakDirections&
   point.q = here.q + kFarAlong * v;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMaxSteps; ++k) {
-    residual.evaluate(point);
+    residual.evaluateResidual(point);
     const double size = point.residual.norm();
     if (!(size < 0.5 * least)) return false;
     if (size <= noiseOf(residual)) return true;

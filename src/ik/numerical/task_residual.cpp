@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "../pointing.h"
+#include "screwline/kinematics/forward.h"
 #include "screwline/spatial/rotation.h"
 
 namespace screwline {
@@ -30,9 +31,26 @@ TaskResidual::TaskResidual(const SerialChain& chain, const Task& task, const Pos
       pointing_(task.pointingAxis()),
       J_(6, chain.size()) {}
 
+void TaskResidual::takeResidual(const Pose& X_BT, TaskPoint& point) const {
+  point.error = taskError(*task_, *target_, X_BT);
+  point.residual.resize(task_->size());
+  for (int i = 0; i < task_->size(); ++i) {
+    const int row = task_->row(i);
+    const double weight = row < 3 ? 1.0 : rotation_weight_;
+    point.residual[i] = row < Task::kFirstToolRow
+                            ? weight * point.error.twist[row]
+                            : weight * task_->axisOf(i, X_BT.R).dot(point.error.twist.tail<3>());
+  }
+  point.cost = 0.5 * point.residual.squaredNorm();
+}
+
+void TaskResidual::evaluateResidual(TaskPoint& point) const {
+  takeResidual(forwardKinematics(*chain_, point.q), point);
+}
+
 void TaskResidual::evaluate(TaskPoint& point) {
   const Pose X_BT = geometricJacobian(*chain_, point.q, J_);
-  point.error = taskError(*task_, *target_, X_BT);
+  takeResidual(X_BT, point);
   if (pointing_ >= 0) {
     const Matrix3 D = X_BT.R * pointingDerivative(target_->R, X_BT.R, pointing_) * X_BT.R.transpose();
     for (Eigen::Index i = 0; i < J_.cols(); ++i) J_.col(i).tail<3>() = (D * J_.col(i).tail<3>()).eval();
@@ -42,21 +60,17 @@ void TaskResidual::evaluate(TaskPoint& point) {
     const Matrix3 D = inverseRightJacobian(r);
     for (Eigen::Index i = 0; i < J_.cols(); ++i) J_.col(i).tail<3>() = (D * J_.col(i).tail<3>()).eval();
   }
-  point.residual.resize(task_->size());
   point.J.resize(task_->size(), J_.cols());
   for (int i = 0; i < task_->size(); ++i) {
     const int row = task_->row(i);
     const double weight = row < 3 ? 1.0 : rotation_weight_;
     if (row < Task::kFirstToolRow) {
-      point.residual[i] = weight * point.error.twist[row];
       point.J.row(i) = weight * J_.row(row);
     } else {
       const Vector3 axis = weight * task_->axisOf(i, X_BT.R);
-      point.residual[i] = axis.dot(point.error.twist.tail<3>());
       point.J.row(i).noalias() = axis.transpose() * J_.bottomRows<3>();
     }
   }
-  point.cost = 0.5 * point.residual.squaredNorm();
 }
 
 }  // namespace screwline

@@ -30,8 +30,12 @@ class TaskResidual {
 
   /// Fills a point from its q. No allocation.
   void evaluate(TaskPoint& point);
+  /// The same without J.
+  void evaluateResidual(TaskPoint& point) const;
 
  private:
+  void takeResidual(const Pose& X_BT, TaskPoint& point) const;
+
   const SerialChain* chain_;
   const Task* task_;
   const Pose* target_;
