@@ -224,6 +224,19 @@ void walk(const SerialChain& chain, const Family& family, const Candidate& candi
   }
 }
 
+/// Widens the ranges along one parameter, the others standing still.
+void widenAlong(const SerialChain& chain, const Family& family, const Candidate& candidate, std::size_t parameter,
+                Continuum& continuum) {
+  const auto place = static_cast<Eigen::Index>(parameter);
+  const auto at = [&](double value, const VectorX& near, VectorX& member) {
+    VectorX values = family.parameters(continuum.nearest);
+    values[place] = value;
+    return family.at(values, near, member);
+  };
+  if (widenAlongLine(chain, at, candidate.free[parameter], continuum)) return;
+  for (double direction : {-1.0, 1.0}) walk(chain, family, candidate, place, direction, continuum);
+}
+
 MatrixX orthonormalRows(const MatrixX& rows) {
   const Eigen::HouseholderQR<MatrixX> qr(rows.transpose());
   MatrixX Q = qr.householderQ() * MatrixX::Identity(rows.cols(), rows.rows());
@@ -263,9 +276,7 @@ Continuum describeContinuum(const SerialChain& chain, const Candidate& candidate
     continuum.lower[i] = continuum.upper[i] = continuum.nearest[continuum.free_joints[static_cast<std::size_t>(i)]];
   }
   for (std::size_t parameter = 0; parameter < candidate.free.size(); ++parameter) {
-    for (double direction : {-1.0, 1.0}) {
-      walk(chain, family, candidate, static_cast<Eigen::Index>(parameter), direction, continuum);
-    }
+    widenAlong(chain, family, candidate, parameter, continuum);
   }
   return continuum;
 }

@@ -96,6 +96,32 @@ double wayWithinLimits(const SerialChain& chain, const VectorX& q, const VectorX
   return way;
 }
 
+void startRanges(Continuum& continuum) {
+  const auto count = static_cast<Eigen::Index>(continuum.free_joints.size());
+  continuum.lower.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    continuum.lower[k] = continuum.nearest[continuum.free_joints[static_cast<std::size_t>(k)]];
+  }
+  continuum.upper = continuum.lower;
+}
+
+/// The ranges by what the joints go along the line from the nearest member.
+void widen(const SerialChain& chain, const VectorX& direction, double reach, Continuum& continuum) {
+  const double ahead = wayWithinLimits(chain, continuum.nearest, direction, reach);
+  const double behind = wayWithinLimits(chain, continuum.nearest, -direction, reach);
+  for (Eigen::Index k = 0; k < continuum.lower.size(); ++k) {
+    const int i = continuum.free_joints[static_cast<std::size_t>(k)];
+    const double rate = direction[i];
+    const JointLimits& limits = chain.joint(i).limits;
+    const double value = continuum.nearest[i];
+    const double one = value + (rate > 0.0 ? -behind : ahead) * rate;
+    const double other = value + (rate > 0.0 ? ahead : -behind) * rate;
+    // What rounding left beyond a limit; a member that breaks it already is told as it is.
+    continuum.lower[k] = std::min({continuum.lower[k], value, std::max(one, limits.lower)});
+    continuum.upper[k] = std::max({continuum.upper[k], value, std::min(other, limits.upper)});
+  }
+}
+
 }  // namespace
 
 std::optional<Continuum> describeLine(const SerialChain& chain, const MemberAt& at, const VectorX& q, int joint,
@@ -109,26 +135,18 @@ std::optional<Continuum> describeLine(const SerialChain& chain, const MemberAt& 
   Continuum continuum;
   continuum.nearest = chooseTurns(chain, best, seed, true, ignore_limits, kLimitBand).q;
   continuum.directions = direction->normalized().transpose();
-  const double ahead = wayWithinLimits(chain, continuum.nearest, *direction, reach);
-  const double behind = wayWithinLimits(chain, continuum.nearest, -*direction, reach);
   for (int i = 0; i < chain.size(); ++i) {
     if ((*direction)[i] != 0.0) continuum.free_joints.push_back(i);
   }
-  const auto count = static_cast<Eigen::Index>(continuum.free_joints.size());
-  continuum.lower.resize(count);
-  continuum.upper.resize(count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const int i = continuum.free_joints[static_cast<std::size_t>(k)];
-    const double rate = (*direction)[i];
-    const JointLimits& limits = chain.joint(i).limits;
-    const double value = continuum.nearest[i];
-    const double one = value + (rate > 0.0 ? -behind : ahead) * rate;
-    const double other = value + (rate > 0.0 ? ahead : -behind) * rate;
-    // What rounding left beyond a limit; a member that breaks it already is told as it is.
-    continuum.lower[k] = std::min(value, std::max(one, limits.lower));
-    continuum.upper[k] = std::max(value, std::min(other, limits.upper));
-  }
+  startRanges(continuum);
+  widen(chain, *direction, reach, continuum);
   return continuum;
+}
+
+bool widenAlongLine(const SerialChain& chain, const MemberAt& at, int joint, Continuum& continuum) {
+  const std::optional<VectorX> direction = directionOf(chain, at, continuum.nearest, joint);
+  if (direction) widen(chain, *direction, reachOf(chain, joint), continuum);
+  return direction.has_value();
 }
 
 }  // namespace screwline

@@ -20,6 +20,10 @@ using MemberAt = std::function<bool(double value, const VectorX& near, VectorX& 
 std::optional<Continuum> describeLine(const SerialChain& chain, const MemberAt& at, const VectorX& q, int joint,
                                       const VectorX& seed, bool ignore_limits);
 
+/// Where the continuum is a straight line in the value of `joint` alone, widens the ranges of the joints that move by
+/// what they go from `continuum.nearest` to both sides until one of them meets a limit. False where it is bent.
+bool widenAlongLine(const SerialChain& chain, const MemberAt& at, int joint, Continuum& continuum);
+
 }  // namespace screwline
 
 #endif  // SCREWLINE_SRC_IK_SOLUTION_LINE_H
