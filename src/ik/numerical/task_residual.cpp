@@ -37,9 +37,8 @@ void TaskResidual::takeResidual(const Pose& X_BT, TaskPoint& point) const {
   for (int i = 0; i < task_->size(); ++i) {
     const int row = task_->row(i);
     const double weight = row < 3 ? 1.0 : rotation_weight_;
-    point.residual[i] = row < Task::kFirstToolRow
-                            ? weight * point.error.twist[row]
-                            : weight * task_->axisOf(i, X_BT.R).dot(point.error.twist.tail<3>());
+    point.residual[i] = row < Task::kFirstToolRow ? weight * point.error.twist[row]
+                                                  : weight * task_->axisOf(i, X_BT.R).dot(point.error.twist.tail<3>());
   }
   point.cost = 0.5 * point.residual.squaredNorm();
 }

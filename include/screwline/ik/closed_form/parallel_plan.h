@@ -20,8 +20,8 @@ struct ParallelSolutions : PlanSolutions {
   unsigned clamped = 0;  ///< Bit k: solution k exists only if rounding is moved in its favour; it may prove to be none.
   unsigned unlikely = 0;  ///< Bit k: clamped, where every move that rounding allows was tried; if it is none, none is
                           ///< missing.
-  bool loose = false;  ///< A pair near alignment is known so badly that its error was not carried on in full: where
-                       ///< others are clamped, one may be missing.
+  bool loose = false;     ///< A pair near alignment is known so badly that its error was not carried on in full: where
+                          ///< others are clamped, one may be missing.
 };
 
 /// Inverse kinematics for whole poses of six revolute joints, three neighbouring ones with parallel axes and two
