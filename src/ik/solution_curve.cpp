@@ -47,6 +47,25 @@ double square(double x) {
   return x * x;
 }
 
+/// The limit beyond which a value is.
+std::optional<double> brokenLimit(const JointLimits& limits, double value) {
+  if (value < limits.lower - kLimitBand) return limits.lower;
+  if (value > limits.upper + kLimitBand) return limits.upper;
+  return std::nullopt;
+}
+
+/// Ranges up to a member.
+void widen(const SerialChain& chain, const VectorX& q, Continuum& continuum) {
+  for (std::size_t i = 0; i < continuum.free_joints.size(); ++i) {
+    const int joint = continuum.free_joints[i];
+    const JointLimits& limits = chain.joint(joint).limits;
+    const double value = std::clamp(q[joint], limits.lower, limits.upper);
+    const auto k = static_cast<Eigen::Index>(i);
+    continuum.lower[k] = std::min(continuum.lower[k], value);
+    continuum.upper[k] = std::max(continuum.upper[k], value);
+  }
+}
+
 }  // namespace
 
 /// Successive parabolas through the three members nearest to where the joint turns back.
@@ -187,64 +206,45 @@ VectorX SolutionCurve::tangentAt(const CurveRun& run, const CurveSample& sample)
   return (ahead.exists() ? ahead.q : sample.q) - (behind.exists() ? behind.q : sample.q);
 }
 
-/// Both ways from the nearest member, until a joint meets a limit or the run ends; all the way round where it is
-/// closed.
-void SolutionCurve::walk(const CurveRun& run, const CurveSample& nearest, Continuum& continuum) const {
+/// From the nearest member until a joint meets a limit or the run ends; all the way round where it is closed.
+void SolutionCurve::walk(const CurveRun& run, const CurveSample& nearest, int way, Continuum& continuum) const {
   const std::vector<CurveSample>& samples = run.samples;
   const VectorX turned = continuum.nearest - nearest.q;  // By full turns.
-  const VectorX winding = samples.back().q - samples.front().q;
   const auto count = static_cast<std::ptrdiff_t>(samples.size()) - 1;
   const auto place = std::upper_bound(samples.begin(), samples.end(), nearest.at,
                                       [](double at, const CurveSample& sample) { return at < sample.at; }) -
                      samples.begin();
-  const auto sampleOf = [&](std::ptrdiff_t i) {
-    const std::ptrdiff_t rounds = i >= count ? i / count : i < 0 ? (i - count + 1) / count : 0;
-    CurveSample sample = samples[static_cast<std::size_t>(i - rounds * count)];
-    sample.at += static_cast<double>(rounds) * period_;
-    sample.q += static_cast<double>(rounds) * winding;
-    return sample;
-  };
-  const auto widen = [&](const VectorX& q) {
-    for (std::size_t i = 0; i < continuum.free_joints.size(); ++i) {
-      const int joint = continuum.free_joints[i];
-      const JointLimits& limits = chain_.joint(joint).limits;
-      const double value = std::clamp(q[joint] + turned[joint], limits.lower, limits.upper);
-      const auto k = static_cast<Eigen::Index>(i);
-      continuum.lower[k] = std::min(continuum.lower[k], value);
-      continuum.upper[k] = std::max(continuum.upper[k], value);
+  CurveSample inside = nearest;
+  bool open = true;
+  for (std::ptrdiff_t step = 0; open && step <= count; ++step) {
+    const std::ptrdiff_t i = way > 0 ? place + step : place - 1 - step;
+    if (!run.closed && (i < 0 || i > count)) break;
+    const bool is_round = run.closed && step == count;
+    CurveSample next = is_round ? roundsOn(run, nearest, way) : sampleOf(run, i);
+    for (int joint : continuum.free_joints) {
+      const std::optional<double> limit = brokenLimit(chain_.joint(joint).limits, next.q[joint] + turned[joint]);
+      if (!limit) continue;
+      next = passing(inside, next, joint, *limit - turned[joint]);
+      open = false;
     }
-  };
-  const auto broken = [&](const VectorX& q, int joint, double& limit) {
-    const JointLimits& limits = chain_.joint(joint).limits;
-    const double value = q[joint] + turned[joint];
-    limit = (value < limits.lower ? limits.lower : limits.upper) - turned[joint];
-    return value < limits.lower - kLimitBand || value > limits.upper + kLimitBand;
-  };
-  double limit = 0.0;
-  for (int joint : continuum.free_joints) {
-    if (broken(nearest.q, joint, limit)) return;
+    widen(chain_, next.q + turned, continuum);
+    inside = std::move(next);
   }
-  for (std::ptrdiff_t way : {1, -1}) {
-    CurveSample inside = nearest;
-    bool open = true;
-    for (std::ptrdiff_t step = 0; open && step <= count; ++step) {
-      const std::ptrdiff_t i = way > 0 ? place + step : place - 1 - step;
-      if (!run.closed && (i < 0 || i > count)) break;
-      CurveSample next = step < count || !run.closed ? sampleOf(i) : nearest;
-      if (run.closed && step == count) {
-        next.at += static_cast<double>(way) * period_;
-        next.q += static_cast<double>(way) * winding;
-      }
-      if (!run.closed && i == count) next = samples.back();
-      for (int joint : continuum.free_joints) {
-        if (!broken(next.q, joint, limit)) continue;
-        next = passing(inside, next, joint, limit);
-        open = false;
-      }
-      widen(next.q);
-      inside = std::move(next);
-    }
-  }
+}
+
+/// The same member, so many times round.
+CurveSample SolutionCurve::roundsOn(const CurveRun& run, CurveSample sample, std::ptrdiff_t rounds) const {
+  sample.at += static_cast<double>(rounds) * period_;
+  sample.q += static_cast<double>(rounds) * (run.samples.back().q - run.samples.front().q);
+  return sample;
+}
+
+/// Counted on beyond the ends of a closed run.
+CurveSample SolutionCurve::sampleOf(const CurveRun& run, std::ptrdiff_t i) const {
+  if (!run.closed) return run.samples[static_cast<std::size_t>(i)];
+  const auto count = static_cast<std::ptrdiff_t>(run.samples.size()) - 1;
+  const std::ptrdiff_t rounds = i >= 0 ? i / count : (i - count + 1) / count;
+  return roundsOn(run, run.samples[static_cast<std::size_t>(i - rounds * count)], rounds);
 }
 
 /// The squared distance to the seed in the nearest turns; no other turns are nearer.
@@ -337,7 +337,11 @@ Continuum SolutionCurve::describe(double start, const VectorX& q, const VectorX&
     continuum.lower[i] = continuum.nearest[continuum.free_joints[static_cast<std::size_t>(i)]];
   }
   continuum.upper = continuum.lower;
-  walk(*run, nearest, continuum);
+  const bool breaks = std::any_of(continuum.free_joints.begin(), continuum.free_joints.end(), [&](int joint) {
+    return brokenLimit(chain_.joint(joint).limits, continuum.nearest[joint]).has_value();
+  });
+  if (breaks) return continuum;
+  for (int way : {1, -1}) walk(*run, nearest, way, continuum);
   return continuum;
 }
 

@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_SRC_IK_SOLUTION_CURVE_H
 #define SCREWLINE_SRC_IK_SOLUTION_CURVE_H
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -60,7 +61,9 @@ class SolutionCurve {
   double reachFrom(const CurveRun& run, std::size_t number, int way, const VectorX& seed, bool honour) const;
   CurveSample nearestIn(const CurveRun& run, std::size_t number, const VectorX& seed, bool honour) const;
   VectorX tangentAt(const CurveRun& run, const CurveSample& sample) const;
-  void walk(const CurveRun& run, const CurveSample& nearest, Continuum& continuum) const;
+  CurveSample roundsOn(const CurveRun& run, CurveSample sample, std::ptrdiff_t rounds) const;
+  CurveSample sampleOf(const CurveRun& run, std::ptrdiff_t i) const;
+  void walk(const CurveRun& run, const CurveSample& nearest, int way, Continuum& continuum) const;
 
   const SerialChain& chain_;
   MemberAt at_;

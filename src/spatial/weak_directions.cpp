@@ -82,7 +82,9 @@ Two orthonormalize(Vectors& x, std::size_t n) {
         std::copysign(1.0, cotangent) / (std::abs(cotangent) + std::sqrt(1.0 + cotangent * cotangent));
     const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
     const double sine = cosine * tangent;
-    for (std::size_t i = 0; i < n; ++i) x[i] = {cosine * x[i][0] - sine * x[i][1], sine * x[i][0] + cosine * x[i][1]};
+    for (std::size_t i = 0; i < n; ++i) {
+      x[i] = Two(cosine * x[i][0] - sine * x[i][1], sine * x[i][0] + cosine * x[i][1]);
+    }
     square = squares(x, n);
   }
   if (square[1] > square[0]) {
