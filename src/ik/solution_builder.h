@@ -32,6 +32,7 @@ class SolutionBuilder {
 
  private:
   void measure(IkAnswer& solution, bool merged) const;
+  void place(IkAnswer& solution, bool near_seed) const;
   double verify(IkAnswer& solution) const;
 
   const SerialChain& chain_;
