@@ -51,6 +51,8 @@ enum class SelfMotionGoal {
   kFarthestFromSingularity,  ///< Largest smallest singular value, lengths in m.
 };
 
+class ArmCircle;
+class PoseCurve;
 class ReachMargin;
 
 /// Self-motions of a chain of seven joints for whole poses: every connected component of the solution set as a curve
@@ -96,9 +98,15 @@ class SelfMotionSolver {
 
  private:
   explicit SelfMotionSolver(const SerialChain& chain);
+  PoseCurve poseCurve(const Pose& target) const;
+  void follow(const SelfMotionQuestion& question, PoseCurve& pose, SelfMotionSet& set) const;
+  void finish(const SelfMotionQuestion& question, PoseCurve& pose, std::size_t from,
+              std::vector<SelfMotionCurve>& curves) const;
+  void nameSheets(const Pose& target, std::vector<SelfMotionSheet>& sheets) const;
 
   SerialChain chain_;
   std::optional<RedundantSolver> closed_form_;
+  std::shared_ptr<const ArmCircle> arm_;       ///< Null where the chain is no S-R-S arm.
   std::shared_ptr<const ReachMargin> margin_;  ///< Null where no such margin is known.
   std::string method_;
 };
