@@ -9,7 +9,7 @@ namespace screwline {
 namespace {
 
 constexpr double kInLine = 1e-13;      // Sine that rounding leaves between axes in line.
-constexpr double kNearLine = 0.1;      // Sine below which joints turn so fast that a node is put where it is least.
+constexpr double kSharp = 1e-2;        // Sine below which joints turn much faster than the arm.
 constexpr double kAcrossEvent = 1e-3;  // [rad] of the arm angle on both sides of axes in line.
 constexpr int kPieces = 16;
 constexpr int kMaxDepth = 60;
@@ -17,7 +17,7 @@ constexpr double kMostTurn = 0.25;    // [rad] of the tangent between nodes.
 constexpr double kMostSpeedup = 2.5;  // Of the arc over the arm angle.
 constexpr double kMostStep = 1.5;     // [rad]
 constexpr double kShortest = 1e-9;    // [rad] Speeds tell no shorter step.
-constexpr double kMostOff = 0.3;      // Of a step, of what speeds tell.
+constexpr double kMostOff = 0.1;      // Of a step, of what speeds tell.
 constexpr int kCircleNodes = 16;
 
 enum Line { kShoulder = 1, kWrist = 2 };
@@ -25,7 +25,8 @@ enum Line { kShoulder = 1, kWrist = 2 };
 /// Values of the arm angle at which axes are in line, or nearest to it.
 struct Event {
   double angle = 0.0;
-  int in_line = 0;  ///< Bits of Line.
+  double sine = 0.0;  ///< Between the axes there.
+  int in_line = 0;    ///< Bits of Line.
 };
 
 /// A solution circle of one elbow.
@@ -62,7 +63,7 @@ class Circle {
     for (double angle : ArmPose::extremes(elbow(), shoulder)) {
       const double sine = ArmPose::outOfLine(elbow(), angle, shoulder);
       const int bit = shoulder ? kShoulder : kWrist;
-      if (sine <= kNearLine) events_.push_back({angle, sine <= kInLine ? bit : 0});
+      events_.push_back({angle, sine, sine <= kInLine ? bit : 0});
     }
   }
 
@@ -71,9 +72,10 @@ class Circle {
     for (std::size_t i = 0; i + 1 < events_.size();) {
       Event& a = events_[i];
       const Event& b = events_[i + 1];
-      const bool one = a.in_line != 0 && b.in_line != 0 && outOfLine(a.angle, b.in_line) <= kInLine;
-      if (one) a.in_line |= b.in_line;
-      if (one || b.angle - a.angle == 0.0) {
+      const bool both = a.in_line != 0 && b.in_line != 0 && outOfLine(a.angle, b.in_line) <= kInLine;
+      if (both || b.angle == a.angle) {
+        a.in_line |= b.in_line;
+        a.sine = std::min(a.sine, b.sine);
         events_.erase(events_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       } else {
         ++i;
@@ -88,14 +90,20 @@ class Circle {
     return sine;
   }
 
-  /// Half of what lies between an event and the others, at most kAcrossEvent.
+  /// Half of what lies between an event and others at which joints turn fast, at most kAcrossEvent.
   double besideOf(const Event& event) const {
     double beside = kAcrossEvent;
     for (const Event& other : events_) {
-      if (&other == &event) continue;
+      if (&other == &event || other.sine > kSharp) continue;
       beside = std::min(beside, 0.5 * std::abs(std::remainder(other.angle - event.angle, kTwoPi)));
     }
     return beside;
+  }
+
+  bool inGap(double angle) const {
+    return std::any_of(events_.begin(), events_.end(), [&](const Event& event) {
+      return event.in_line != 0 && std::abs(std::remainder(angle - event.angle, kTwoPi)) < besideOf(event);
+    });
   }
 
   /// Arm angles of nodes over one turn, from the start; where axes come into line, the gap behind which ways change.
@@ -112,14 +120,11 @@ class Circle {
     };
     for (int i = 0; i < kPieces; ++i) {
       const double angle = start + i * kTwoPi / kPieces;
-      const bool in_gap = std::any_of(events_.begin(), events_.end(), [&](const Event& event) {
-        return event.in_line != 0 && std::abs(std::remainder(angle - event.angle, kTwoPi)) < besideOf(event);
-      });
-      if (i == 0 || !in_gap) stops.push_back({angle, 0});
+      if (i == 0 || !inGap(angle)) stops.push_back({angle, 0});
     }
     for (const Event& event : events_) {
       if (event.in_line == 0) {
-        stops.push_back({after(event.angle), 0});
+        if (!inGap(event.angle)) stops.push_back({after(event.angle), 0});
         continue;
       }
       const double beside = besideOf(event);

@@ -151,10 +151,12 @@ bool isStill(const SelfMotionNode& a, const SelfMotionNode& b, int joint) {
   return std::max(std::abs(a.tangent[joint]), std::abs(b.tangent[joint])) <= rounding;
 }
 
-/// The joint that turns back between two nodes; -1: none.
+/// The joint that turns back between two nodes, not at one of them to rounding; -1: none.
 int turningJoint(const SelfMotionNode& a, const SelfMotionNode& b) {
+  const double rounding = std::max({kStill, a.noise, b.noise});
   for (int i = 0; i < kRedundantJoints; ++i) {
-    if (a.tangent[i] * b.tangent[i] < 0.0 && !isStill(a, b, i)) return i;
+    const double least = std::min(std::abs(a.tangent[i]), std::abs(b.tangent[i]));
+    if (a.tangent[i] * b.tangent[i] < 0.0 && least > rounding) return i;
   }
   return -1;
 }

@@ -69,6 +69,21 @@ void conclude(const SerialChain& chain, bool closed_form, SelfMotionSet& set) {
   set.complete = set.complete && !broken;
 }
 
+/// The curve that has the node nearest to the seed.
+void putFirst(const PoseCurve& pose, const Vector7& seed, std::vector<SelfMotionCurve>& curves) {
+  auto best = curves.begin();
+  double least = std::numeric_limits<double>::infinity();
+  for (auto curve = curves.begin(); curve != curves.end(); ++curve) {
+    for (const SelfMotionNode& node : curve->nodes) {
+      const double off = pose.norm(pose.difference(node.q, seed));
+      if (off >= least) continue;
+      least = off;
+      best = curve;
+    }
+  }
+  if (best != curves.end()) std::rotate(curves.begin(), best, best + 1);
+}
+
 /// Where the tip moves in less than six dimensions solutions are surfaces, not curves.
 bool isAlwaysSingular(const SerialChain& chain) {
   Matrix6X J(6, kRedundantJoints);
@@ -120,6 +135,7 @@ SelfMotionSet SelfMotionSolver::trace(const SelfMotionQuestion& question) const 
   SelfMotionSet set;
   if (pose.arm() != nullptr) {
     addArmCurves(pose, pose.arm(), set);
+    if (question.seed.size() > 0) putFirst(pose, question.seed, set.curves);
     set.complete = true;
     finish(question, pose, 0, set.curves);
     nameSheets(question.target, set.sheets);
