@@ -73,7 +73,9 @@ void registerAll() {
   test::ArmMaker maker(kSeed);
   benchmark::RegisterBenchmark("algebraic/general 6R", algebraic, test::generalArm(maker, -1));
   benchmark::RegisterBenchmark("algebraic/general 5R1P", algebraic, test::generalArm(maker, 2));
+  benchmark::RegisterBenchmark("algebraic/general 4R2P", algebraic, test::twoSlideArm(maker));
   benchmark::RegisterBenchmark("compile/sixteen", compile, test::sixteenArm().chain());
+  benchmark::RegisterBenchmark("compile/general 4R2P", compile, test::twoSlideArm(maker));
 }
 
 }  // namespace

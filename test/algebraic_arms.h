@@ -111,6 +111,13 @@ inline SerialChain generalArm(ArmMaker& maker, int slide) {
   return ArmMaker::chain(axes, maker.pose(), maker.pose());
 }
 
+/// Four turns and two slides in general position.
+inline SerialChain twoSlideArm(ArmMaker& maker) {
+  std::vector<Axis> axes = generalArm(maker, 1).axes();
+  axes[4].prismatic = true;
+  return ArmMaker::chain(axes, maker.pose(), Pose());
+}
+
 }  // namespace test
 }  // namespace screwline
 

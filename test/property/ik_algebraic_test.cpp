@@ -1,57 +1,22 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstring>
 
-#include <Eigen/LU>
-
 #include "algebraic_arms.h"
-#include "screwline/ik/algebraic/algebraic_solver.h"
+#include "algebraic_laws.h"
 #include "screwline/ik/numerical/numerical_solver.h"
-#include "screwline/kinematics/forward.h"
 
 namespace screwline {
 namespace {
 
 constexpr unsigned kSeed = 20261124;
 
-VectorX valuesOf(const std::array<double, 6>& q) {
-  return Eigen::Map<const Vector6>(q.data());
-}
-
-double difference(const SerialChain& chain, const VectorX& a, const VectorX& b) {
-  double largest = 0.0;
-  for (int i = 0; i < chain.size(); ++i) {
-    const double d = a[i] - b[i];
-    largest = std::max(largest, std::abs(chain.joint(i).isRevolute() ? std::remainder(d, kTwoPi) : d));
-  }
-  return largest;
-}
-
-double nearest(const SerialChain& chain, const AlgebraicSolutions& solutions, const VectorX& q) {
-  double least = 10.0;
-  for (const std::array<double, 6>& solution : solutions)
-    least = std::min(least, difference(chain, valuesOf(solution), q));
-  return least;
-}
-
-VectorX randomConfiguration(test::ArmMaker& maker, const SerialChain& chain) {
-  VectorX q(chain.size());
-  for (int i = 0; i < chain.size(); ++i) q[i] = maker.uniform(-kPi, kPi) * (chain.joint(i).isRevolute() ? 1.0 : 0.3);
-  return q;
-}
-
-/// Laws of every answer: the pose is reached, nothing is there twice, all is finite.
-void expectLawful(const SerialChain& chain, const Pose& target, const AlgebraicSolutions& solutions) {
-  for (int i = 0; i < solutions.count; ++i) {
-    const VectorX q = valuesOf(solutions.q[static_cast<std::size_t>(i)]);
-    ASSERT_TRUE(q.allFinite());
-    EXPECT_LE(taskError(Task(), target, forwardByExponentials(chain, q)).norm(), 1e-9);
-    for (int j = 0; j < i; ++j) {
-      EXPECT_GT(difference(chain, q, valuesOf(solutions.q[static_cast<std::size_t>(j)])), 1e-6);
-    }
-  }
-}
+using test::difference;
+using test::expectLawful;
+using test::nearest;
+using test::randomConfiguration;
+using test::singularConfiguration;
+using test::valuesOf;
 
 /// The generating configuration is among the solutions of random poses, and the list says it is complete.
 void expectReproduced(const SerialChain& chain, test::ArmMaker& maker, int poses, const std::string& name) {
@@ -155,23 +120,6 @@ TEST(IkAlgebraic, FindsSixteen) {
   options.timeout = 60.0;
   options.max_solutions = 16;
   EXPECT_EQ(search(chain, Task(), target, {}, options).solutions.size(), 16u);
-}
-
-/// A configuration between two where the Jacobian's determinant has different signs.
-VectorX singularConfiguration(const SerialChain& chain, test::ArmMaker& maker) {
-  Matrix6X J(6, 6);
-  const auto determinant = [&](const VectorX& q) {
-    geometricJacobian(chain, q, J);
-    return Matrix6(J).determinant();
-  };
-  VectorX low = randomConfiguration(maker, chain);
-  VectorX high = randomConfiguration(maker, chain);
-  while (determinant(low) * determinant(high) > 0.0) high = randomConfiguration(maker, chain);
-  for (int i = 0; i < 60; ++i) {
-    const VectorX middle = 0.5 * (low + high);
-    (determinant(middle) * determinant(low) > 0.0 ? low : high) = middle;
-  }
-  return low;
 }
 
 TEST(IkAlgebraic, HoldsAtAndNearSingularities) {

@@ -6,7 +6,8 @@
 #include <cstdlib>
 #include <memory>
 
-#include "ik_arms.h"
+#include "algebraic_arms.h"
+#include "screwline/ik/algebraic/algebraic_solver.h"
 #include "screwline/ik/closed_form/plan.h"
 #include "screwline/kinematics/batch.h"
 #include "screwline/kinematics/jacobian.h"
@@ -71,6 +72,19 @@ TEST_P(Allocation, ClosedFormAllocatesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Structures, Allocation, testing::Range(0, test::ArmMaker::kStructures));
+
+TEST(AlgebraicAllocation, SolvingAllocatesNothing) {
+  test::ArmMaker maker(6);
+  const VectorX q = VectorX::LinSpaced(6, 0.2, 0.9);
+  for (const SerialChain& chain : {test::generalArm(maker, -1), test::generalArm(maker, 2), test::twoSlideArm(maker)}) {
+    const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+    ASSERT_TRUE(solver.has_value());
+    const Pose target = forwardKinematics(chain, q);
+    AlgebraicSolutions solutions;
+    EXPECT_EQ(allocationsOf([&] { solver->solve(target, solutions); }), 0);
+    EXPECT_GT(solutions.count, 0);
+  }
+}
 
 TEST(TimeOptimalAllocation, StateToStateAllocatesNothing) {
   const auto question = std::make_unique<StateToState>();

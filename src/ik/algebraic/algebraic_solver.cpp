@@ -4,8 +4,17 @@
 
 #include "elimination.h"
 #include "three_slides.h"
+#include "two_slides.h"
 
 namespace screwline {
+namespace {
+
+bool isSlide(const Axis& axis) {
+  return axis.prismatic;
+}
+
+}  // namespace
+
 struct AlgebraicSolver::Implementation {
   explicit Implementation(const SerialChain& chain_in)
       : chain(chain_in), loop(chain), three_slides(ThreeSlides::compile(chain)) {
@@ -13,18 +22,16 @@ struct AlgebraicSolver::Implementation {
       method = "algebraic: three turns make the orientation, three slides the position";
       return;
     }
-    eliminations = chooseEliminations(chain, loop);
-    if (!eliminations.usable.empty()) {
-      const Labelling& best = eliminations.usable.front().labelling();
-      method = "algebraic: " + chain.joint(best.hidden()).name + " hidden, " + chain.joint(best.pair(0)).name +
-               " and " + chain.joint(best.pair(1)).name + " eliminated linearly";
-    }
+    const auto slides = std::count_if(loop.axes.begin(), loop.axes.end(), isSlide);
+    if (slides > 2) return;
+    hidden = chooseHiddenTurns(chain, loop, slides == 2 ? slidePairsOf(loop) : eliminationsOf(loop));
+    if (!hidden.usable.empty()) method = "algebraic: " + hidden.usable.front()->words(chain);
   }
 
   SerialChain chain;
   Loop loop;
   std::optional<ThreeSlides> three_slides;
-  EliminationChoice eliminations;
+  HiddenTurnChoice hidden;
   std::string method;
 };
 
@@ -32,9 +39,7 @@ AlgebraicSolver::AlgebraicSolver(std::shared_ptr<const Implementation> implement
     : implementation_(std::move(implementation)) {}
 
 std::optional<AlgebraicSolver> AlgebraicSolver::compile(const SerialChain& chain) {
-  const auto isSlide = [](const Axis& axis) { return axis.prismatic; };
   if (chain.size() != 6 || chain.hasMimic()) return std::nullopt;
-  if (std::count_if(chain.axes().begin(), chain.axes().end(), isSlide) > 3) return std::nullopt;
   auto implementation = std::make_shared<const Implementation>(chain);
   if (implementation->method.empty()) return std::nullopt;
   return AlgebraicSolver(std::move(implementation));
@@ -51,20 +56,19 @@ void AlgebraicSolver::solve(const Pose& target, AlgebraicSolutions& solutions) c
     solutions.degenerate = !solutions.complete;
     return;
   }
-  const DualQuaternion closure = self.loop.closure(target);
   bool clean = false;
   bool vanishing = true;
   // Solutions that are not double come in pairs: an odd number is reason to look again.
-  for (const Elimination& elimination : self.eliminations.usable) {
-    const Eliminated result = elimination.solve(closure, refiner);
+  for (const std::shared_ptr<const HiddenTurn>& turn : self.hidden.usable) {
+    const Eliminated result = turn->solve(target, refiner);
     vanishing = vanishing && result == Eliminated::kVanishing;
     solutions.complete = solutions.complete || result == Eliminated::kAll;
     clean = result == Eliminated::kAll && solutions.count % 2 == 0;
     if (clean) break;
   }
-  for (const Elimination& elimination : self.eliminations.reserves) {
+  for (const std::shared_ptr<const HiddenTurn>& turn : self.hidden.reserves) {
     if (clean || vanishing || (solutions.complete && solutions.count % 2 == 0)) break;
-    elimination.solve(closure, refiner);
+    turn->solve(target, refiner);
   }
   refiner.findContinua();
   solutions.degenerate = solutions.degenerate || vanishing;

@@ -69,22 +69,6 @@ constexpr double kCosines[5] = {1.0, 0.309016994374947424, -0.809016994374947424
 
 }  // namespace
 
-double CircleMap::image(double angle) const {
-  const double half = 0.5 * (angle - center);
-  return 2.0 * std::atan2(stretch * std::sin(half), std::cos(half));
-}
-
-double CircleMap::angle(double image) const {
-  if (stretch == 1.0) return center + image;
-  return center + 2.0 * std::atan2(std::sin(0.5 * image), stretch * std::cos(0.5 * image));
-}
-
-double CircleMap::slope(double image) const {
-  const double c = stretch * std::cos(0.5 * image);
-  const double s = std::sin(0.5 * image);
-  return stretch / (c * c + s * s);
-}
-
 DixonMatrix dixonMatrix(const LoopSystem::Coefficients& m) {
   // The determinant of the equations at (x, y, z), (i, y, z), (i, j, z), (i, j, k), divided by (x-i)(y-j)(z-k), has
   // the columns A(y, z), B(i, z), C(i, j), E(i, j). By Laplace it is (A ^ B) ^ (C ^ E), in monomials.

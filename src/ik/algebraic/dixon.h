@@ -15,18 +15,6 @@ using DixonMatrix = Eigen::Matrix<double, 6, 6>;
 
 DixonMatrix dixonMatrix(const LoopSystem::Coefficients& equations);
 
-/// A Moebius map of the circle, tan(image / 2) = stretch tan((angle - center) / 2): it spreads what lies about
-/// `center`.
-struct CircleMap {
-  double center = 0.0;
-  double stretch = 1.0;
-
-  double image(double angle) const;
-  double angle(double image) const;
-  /// Derivative of angle(); its inverse is the squared factor by which homogeneous parameters grow.
-  double slope(double image) const;
-};
-
 /// Dixon's matrix over the hidden joint's angle: each entry is a trigonometric polynomial of degree two.
 class DixonPencil {
  public:

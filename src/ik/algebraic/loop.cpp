@@ -27,37 +27,35 @@ Products product(const Factor& a, const Factor& b) {
 }  // namespace
 
 Loop::Loop(const SerialChain& chain) {
-  const std::vector<Axis>& axes = chain.axes();
   int turns = 0;
-  for (const Axis& axis : axes) {
+  for (const Axis& axis : chain.axes()) {
     if (axis.prismatic) continue;
     origin += axis.point;
     ++turns;
   }
   if (turns > 0) origin /= turns;
   double spread = 0.0;
-  for (const Axis& axis : axes) {
+  for (const Axis& axis : chain.axes()) {
     if (!axis.prismatic) spread = std::max(spread, (axis.point - origin).norm());
   }
   length = std::max(spread, 0.1 * chain.characteristicLength());
   for (std::size_t i = 0; i < 6; ++i) {
-    Axis axis = axes[i];
-    axis.point = (axis.point - origin) / length;
-    screws[i] = screwOf(axis);
-    prismatic[i] = axis.prismatic;
-    multipliers[static_cast<Eigen::Index>(i)] = axis.multiplier;
+    axes[i] = chain.axes()[i];
+    axes[i].point = (axes[i].point - origin) / length;
+    screws[i] = screwOf(axes[i]);
+    multipliers[static_cast<Eigen::Index>(i)] = axes[i].multiplier;
   }
   home_inverse = chain.home().inverse();
 }
 
-DualQuaternion Loop::closure(const Pose& target) const {
+Pose Loop::motion(const Pose& target) const {
   Pose X = target * home_inverse;
   X.p = (X.p + X.R * origin - origin) / length;
-  return conjugate(toDualQuaternion(X));
+  return X;
 }
 
 double Loop::displacement(int joint, const JointParameter& parameter) const {
-  if (!prismatic[static_cast<std::size_t>(joint)]) return 2.0 * std::atan2(parameter[1], parameter[0]);
+  if (!axes[static_cast<std::size_t>(joint)].prismatic) return 2.0 * std::atan2(parameter[1], parameter[0]);
   return 2.0 * length * parameter[1] / parameter[0];
 }
 

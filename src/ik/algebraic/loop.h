@@ -17,12 +17,14 @@ using JointParameter = Eigen::Vector2d;
 struct Loop {
   explicit Loop(const SerialChain& chain);
 
-  /// X^-1 of the loop for a pose of the tip.
-  DualQuaternion closure(const Pose& target) const;
+  /// X of the loop for a pose of the tip: what the axes' motions amount to.
+  Pose motion(const Pose& target) const;
+  /// X^-1.
+  DualQuaternion closure(const Pose& target) const { return conjugate(toDualQuaternion(motion(target))); }
   double displacement(int joint, const JointParameter& parameter) const;
 
+  std::array<Axis, 6> axes;
   std::array<DualQuaternion, 6> screws;
-  std::array<bool, 6> prismatic{};
   Vector6 multipliers = Vector6::Ones();  ///< Displacement of an axis over its joint's value.
   Vector3 origin = Vector3::Zero();
   double length = 1.0;

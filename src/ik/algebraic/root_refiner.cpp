@@ -1,5 +1,6 @@
 #include "root_refiner.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -17,7 +18,7 @@ constexpr int kMaxSteps = 60;
 constexpr double kAccepted = 1e-11;      ///< Error of a solution.
 constexpr double kExact = 2e-15;         ///< Error that is rounding.
 constexpr double kLongestStep = 0.5;     ///< [rad], [lengths] of Newton's method.
-constexpr double kSame = 1e-6;           ///< [rad], [lengths]
+constexpr double kSame = 1e-6;           ///< [rad], [m] or [lengths]
 constexpr double kMaybeSame = 1e-3;      ///< Closer than this, the middle decides.
 constexpr double kNearSingular = 1e-3;   ///< Pivot ratio below which a mate is looked for.
 constexpr double kFarthestMate = 0.5;    ///< [rad], [lengths]
@@ -108,18 +109,21 @@ Vector6 RootRefiner::difference(const Vector6& to, const Vector6& from) const {
 
 bool RootRefiner::isSame(const Vector6& a, const Vector6& b) const {
   const Vector6 apart = difference(a, b);
-  const double distance = apart.cwiseAbs().maxCoeff();
-  if (distance <= kSame) return true;
-  if (distance > kMaybeSame) return false;
-  // Where the middle is a solution as well, rounding leaves open where between the two the solution lies.
   Vector6 middle = b;
+  double distance = 0.0;  // Of slides in m or lengths, whichever is more.
+  double farthest = 1.0;  // Rounding grows with the way that slides go.
   for (Eigen::Index i = 0; i < 6; ++i) {
     const bool prismatic = chain_.kernel().axes[static_cast<std::size_t>(i)].prismatic;
     middle[i] += 0.5 * apart[i] * (prismatic ? length_ : 1.0);
+    distance = std::max(distance, std::abs(apart[i]) * (prismatic ? std::min(length_, 1.0) : 1.0));
+    if (prismatic) farthest = std::max(farthest, std::abs(middle[i]) / length_);
   }
+  if (distance <= kSame) return true;
+  if (distance > kMaybeSame) return false;
+  // Where the middle is a solution as well, rounding leaves open where between the two the solution lies.
   Point point;
   evaluate(middle, point);
-  return point.error <= 8.0 * kExact;
+  return point.error <= 8.0 * kExact * farthest;
 }
 
 bool RootRefiner::isRegular(int place) const {

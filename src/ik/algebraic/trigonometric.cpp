@@ -123,6 +123,22 @@ class Subdivision {
 
 }  // namespace
 
+double CircleMap::image(double angle) const {
+  const double half = 0.5 * (angle - center);
+  return 2.0 * std::atan2(stretch * std::sin(half), std::cos(half));
+}
+
+double CircleMap::angle(double image) const {
+  if (stretch == 1.0) return center + image;
+  return center + 2.0 * std::atan2(std::sin(0.5 * image), stretch * std::cos(0.5 * image));
+}
+
+double CircleMap::slope(double image) const {
+  const double c = stretch * std::cos(0.5 * image);
+  const double s = std::sin(0.5 * image);
+  return stretch / (c * c + s * s);
+}
+
 TrigonometricPolynomial::TrigonometricPolynomial(const std::array<double, kTrigonometricSamples>& values) {
   const Circle& unit = circle();
   const auto coefficient = [&](std::size_t k, const std::array<double, kTrigonometricSamples>& basis) {

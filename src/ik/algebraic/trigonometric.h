@@ -8,6 +8,18 @@ namespace screwline {
 constexpr int kTrigonometricSamples = 32;
 constexpr int kTrigonometricDegree = 12;
 
+/// A Moebius map of the circle, tan(image / 2) = stretch tan((angle - center) / 2): it spreads what lies about
+/// `center`.
+struct CircleMap {
+  double center = 0.0;
+  double stretch = 1.0;
+
+  double image(double angle) const;
+  double angle(double image) const;
+  /// Derivative of angle(); its inverse is the squared factor by which homogeneous parameters grow.
+  double slope(double image) const;
+};
+
 /// Angles that are held together in one place: real roots, and where the polynomial comes closer to zero than its
 /// noise.
 struct TrigonometricRoots {

@@ -33,15 +33,15 @@ struct AlgebraicSolutions {
 /// is a trigonometric polynomial of degree 8: the 16 solutions, and nothing else. It is known from 32 samples, which
 /// measure its noise as well; its real roots are isolated, the null vectors give the other joints, Newton's method on
 /// the chain itself has the last word. Which joints are the pair and the fourth is chosen for the chain by trial, with
-/// alternatives where a pose is ill-conditioned. Two slides occur without their product: the coefficients of 3 x 3
-/// minors take the place of Dixon's matrix, for 8 solutions at most. With three slides the turns alone make the
-/// orientation. Sources: Husty & Pfurner 2007 (joint pairs span linear spaces, on
-/// Study's quadric), Dixon 1908, Sturmfels & Zelevinsky 1994 (exact multilinear resultants), Raghavan & Roth 1993 (16
-/// is the degree).
+/// alternatives where a pose is ill-conditioned. With two slides the four turns alone make the orientation: one of them
+/// is hidden, the other three follow in closed form in two ways, and the slides' plane must hold the rest of the way: a
+/// polynomial of degree 4, for the 8 solutions. With three slides the turns alone make the orientation. Sources: Husty
+/// & Pfurner 2007 (joint pairs span linear spaces, on Study's quadric), Dixon 1908, Sturmfels & Zelevinsky 1994 (exact
+/// multilinear resultants), Raghavan & Roth 1993 (16 is the degree).
 class AlgebraicSolver {
  public:
-  /// Empty where the chain has not six joints, has mimic joints, or no labelling reproduces its configurations (as
-  /// where the tip moves in less than six dimensions). Takes about 5 ms; allocates.
+  /// Empty where the chain has not six joints, has mimic joints, or no choice of the hidden joint reproduces its
+  /// configurations (as where the tip moves in less than six dimensions). Takes about 5 ms; allocates.
   static std::optional<AlgebraicSolver> compile(const SerialChain& chain);
 
   /// All solutions, each verified: errors by forward kinematics below 1e-10 (rad, and characteristic lengths).
