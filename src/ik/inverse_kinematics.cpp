@@ -228,8 +228,8 @@ void InverseKinematics::Implementation::admit(const IkRequest& request, IkAnswer
   }
 }
 
-/// A method whose geometry breaks down at this very pose has no candidates: a few descents tell it from a pose out of
-/// reach.
+/// A method whose geometry breaks down at this very pose has no candidates, or none that solve it: a few descents tell
+/// it from a pose out of reach.
 void InverseKinematics::Implementation::doubtUnreachable(const IkRequest& request, const SolutionBuilder& builder,
                                                          IkResult& result) const {
   SearchOptions options;
@@ -385,11 +385,12 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
   const bool curves_say_nothing = result.solutions.empty() && !result.complete && request.redundancy.empty();
   if (!self.redundant || curves_say_nothing) any = self.gather(request, builder, result) || any;
   self.admitSeed(request, builder, result);
-  if (result.complete && !any && result.solutions.empty()) self.doubtUnreachable(request, builder, result);
+  const bool other_branch = !request.branch.empty() && any;
+  if (result.complete && result.solutions.empty() && result.outside_limits == 0 && !other_branch)
+    self.doubtUnreachable(request, builder, result);
   const bool existed = result.outside_limits > 0 || !result.solutions.empty();
   self.conclude(request, builder, result);
   if (result.solutions.empty()) {
-    const bool other_branch = !request.branch.empty() && any;
     result.status = existed || other_branch ? IkStatus::kOutsideLimits
                                             : (result.complete ? IkStatus::kUnreachable : IkStatus::kNotFound);
   }

@@ -15,6 +15,7 @@ constexpr double kGoodEnough = 1e-13;  // [m, rad] errors that Newton steps woul
 constexpr double kRounding = 2.2e-16;  // Of 1 and the chain's length: no residual is known better.
 constexpr double kLeastBand = 1e-9;    // Limits are decided no finer than this, and no coarser than kMostBand.
 constexpr double kMostBand = 1e-6;
+constexpr double kMostFollowed = 1e-3;  // [rad, m] The square root of kMostBand: two roots are there at most.
 
 bool isSolution(const IkAnswer& solution) {
   return solution.position_error <= kSolutionTolerance && solution.orientation_error <= kSolutionTolerance;
@@ -47,16 +48,9 @@ std::optional<IkAnswer> SolutionBuilder::build(Candidate candidate) const {
   }
   if (!isSolution(solution)) return std::nullopt;
   const TaskConditioning conditioning = measure(solution, candidate.merged);
-  const double band = std::clamp(solution.joint_error, kLeastBand, kMostBand);
-  const Turned turned =
-      chooseTurns(chain_, solution.position, seed_, hasSeed() || !candidate.free.empty(), request_.ignore_limits, band);
-  solution.within_limits = turned.within_limits;
-  // Full turns and what is put on a limit leave the Jacobian as it was, to rounding; the pose is looked at again.
-  const bool moved = largestDifference(chain_, turned.q, solution.position) > kGoodEnough;
-  if (turned.q != solution.position) {
-    solution.position = turned.q;
-    verify(solution);
-  }
+  const VectorX refined = solution.position;
+  place(solution, hasSeed() || !candidate.free.empty());
+  const bool moved = largestDifference(chain_, refined, solution.position) > kGoodEnough;
   if (!isSolution(solution)) return std::nullopt;
   if (conditioning.weak && candidate.free.empty() && !moved) {
     nearly_singular_.emplace_back(solution.position, *conditioning.weak);
@@ -69,6 +63,31 @@ const WeakDirections* SolutionBuilder::weakDirectionsAt(const VectorX& position)
     if (place == position) return &weak;
   }
   return nullptr;
+}
+
+/// Chooses turns and decides about limits. At a singularity rounding widens the band in which values are put on a limit
+/// so far that this can leave the pose: then the other joints follow, and where they cannot, the limit is broken.
+/// Full turns and what is put on a limit leave the Jacobian as it was, to rounding; the pose is looked at again.
+void SolutionBuilder::place(IkAnswer& solution, bool near_seed) const {
+  const VectorX refined = solution.position;
+  const auto turn = [&](double band) {
+    const Turned turned = chooseTurns(chain_, refined, seed_, near_seed, request_.ignore_limits, band);
+    solution.within_limits = turned.within_limits;
+    if (turned.q == solution.position) return true;
+    solution.position = turned.q;
+    verify(solution);
+    return isSolution(solution);
+  };
+  if (turn(std::clamp(solution.joint_error, kLeastBand, kMostBand))) return;
+  if (!request_.ignore_limits) {
+    const VectorX follows = descend(chain_, task_, request_.target, solution.position, DescentOptions()).q;
+    if ((follows - solution.position).cwiseAbs().maxCoeff() <= kMostFollowed) {
+      solution.position = follows;
+      verify(solution);
+      if (isSolution(solution)) return;
+    }
+  }
+  turn(0.0);
 }
 
 double SolutionBuilder::timeLeft() const {

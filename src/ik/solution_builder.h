@@ -37,6 +37,7 @@ class SolutionBuilder {
 
  private:
   TaskConditioning measure(IkAnswer& solution, bool merged) const;
+  void place(IkAnswer& solution, bool near_seed) const;
   double verify(IkAnswer& solution) const;
 
   const SerialChain& chain_;

@@ -11,7 +11,8 @@ constexpr double kLongestStep = 0.5;
 constexpr double kShortestStep = 1e-7;    // Below it, branches that do not join cannot be told from a crossing.
 constexpr double kMostTurn = 0.25;        // [rad] of the tangent in one step.
 constexpr double kMostCorrection = 0.15;  // Of a step.
-constexpr double kSingularStart = 1e-9;   // Gain below which a start has no tangent.
+constexpr double kLookAhead = 2.0;        // Steps that the gain must not fall to zero in, and rise again.
+constexpr double kSingularStart = 1e-14;  // Gain below which a start has no tangent.
 constexpr double kFarthest = 1000.0;      // [rad, lengths] An open curve ends there.
 
 /// Where the next step is to begin: the node, walked in `way` of its oriented tangent.
@@ -26,7 +27,7 @@ class Walk {
   /// True where it comes back to the start.
   bool run(std::vector<SelfMotionNode>& nodes, std::vector<Vector7>& crossings) {
     nodes.push_back(at_);
-    while (static_cast<int>(nodes.size()) < kMaxCurveNodes) {
+    while (nodes.size() < kMaxCurveNodes) {
       const bool passed_start = step(crossings);
       if (passed_start) {
         nodes.push_back(closing(nodes.back()));
@@ -53,6 +54,12 @@ class Walk {
         along = -along;
         crossings.push_back(0.5 * (at_.q + next.q));
       }
+      // The gain falls to zero towards a crossing and rises behind it: a step must not reach so far.
+      const double slope = std::max(slope_, std::abs(next.gain - at_.gain) / h_);
+      if (found && !shortest && at_.gain + next.gain < kLookAhead * slope * h_) {
+        h_ = std::max(0.5 * h_, kShortestStep);
+        continue;
+      }
       if (along < std::cos(kMostTurn)) {
         if (!shortest) {
           h_ = std::max(0.5 * h_, kShortestStep);
@@ -72,6 +79,7 @@ class Walk {
     next.arc = at_.arc + pose_.norm(next.q - at_.q) * (1.0 + turn * turn / 24.0);
     const bool passes = passesStart(next);
     bend_ = (next.tangent - at_.tangent) / (next.arc - at_.arc);
+    slope_ = std::abs(next.gain - at_.gain) / (next.arc - at_.arc);
     at_ = next;
     const double growth = turn > 0.0 ? std::clamp(0.7 * kMostTurn / turn, 0.5, 2.0) : 2.0;
     h_ = std::clamp(growth * h_, kShortestStep, kLongestStep);
@@ -129,6 +137,7 @@ class Walk {
   SelfMotionNode start_;
   SelfMotionNode at_;
   Vector7 bend_ = Vector7::Zero();
+  double slope_ = 1.0;  ///< Of the gain along the last step; 1 is a usual arm's steepest.
   double h_ = kFirstStep;
   double way_;  ///< Of the walk against the oriented tangents: 1 or -1.
   bool ended_ = false;
@@ -136,17 +145,18 @@ class Walk {
 
 constexpr int kMaxDepth = 40;     // Of splitting; not reached but where rounding makes tangents turn at random.
 constexpr double kStill = 1e-11;  // Tangents below it are rounding: the joint does not move.
-constexpr double kRoundingOfGain = 1e-13;  // The same over the gain: near a singularity tangents have fewer digits.
 
 bool isStill(const SelfMotionNode& a, const SelfMotionNode& b, int joint) {
-  const double rounding = kRoundingOfGain / std::max(std::min(a.gain, b.gain), 1e-9);
-  return std::max(std::abs(a.tangent[joint]), std::abs(b.tangent[joint])) <= std::max(kStill, rounding);
+  const double rounding = std::max({kStill, a.noise, b.noise});
+  return std::max(std::abs(a.tangent[joint]), std::abs(b.tangent[joint])) <= rounding;
 }
 
-/// The joint that turns back between two nodes; -1: none.
+/// The joint that turns back between two nodes, not at one of them to rounding; -1: none.
 int turningJoint(const SelfMotionNode& a, const SelfMotionNode& b) {
+  const double rounding = std::max({kStill, a.noise, b.noise});
   for (int i = 0; i < kRedundantJoints; ++i) {
-    if (a.tangent[i] * b.tangent[i] < 0.0 && !isStill(a, b, i)) return i;
+    const double least = std::min(std::abs(a.tangent[i]), std::abs(b.tangent[i]));
+    if (a.tangent[i] * b.tangent[i] < 0.0 && least > rounding) return i;
   }
   return -1;
 }
@@ -192,7 +202,7 @@ void append(PoseCurve& pose, const SelfMotionNode& a, const SelfMotionNode& b, i
     const unsigned suspects = suspectJoints(a, b, pose.norm(b.tangent - a.tangent));
     split = suspects != 0U && pose.between(a, b, 0.5, node) && isUncertain(a, node, b, suspects);
   }
-  if (split && depth < kMaxDepth && static_cast<int>(nodes.size()) < kMaxCurveNodes) {
+  if (split && depth < kMaxDepth && nodes.size() < kMaxCurveNodes) {
     append(pose, a, node, depth + 1, nodes);
     append(pose, node, b, depth + 1, nodes);
   } else {

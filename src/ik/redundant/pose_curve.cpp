@@ -13,8 +13,10 @@ namespace {
 constexpr int kMaxSteps = 12;
 constexpr double kRounding = 4e-15;         // Residuals that steps would not lessen, in units of 1 and the length.
 constexpr double kLastStep = 1e-11;         // A Newton step that is shorter is the last one.
+constexpr double kNoise = 1e-13;            // Of tangents, times the gain.
+constexpr double kLeastGain = 1e-9;         // Below it tangents are not asked for.
 constexpr double kGoodEnough = 1e-12;       // Where rounding of a large chain or a near singularity stops the steps.
-constexpr double kNegligiblePivot = 1e-11;  // Directions with smaller gain are left alone.
+constexpr double kNegligiblePivot = 1e-13;  // Directions with smaller gain are left alone.
 
 /// Householder QR of J^T: null vector and least-norm steps of one factorisation.
 class Factor {
@@ -56,7 +58,8 @@ class Factor {
 
 }  // namespace
 
-PoseCurve::PoseCurve(const SerialChain& chain, const Pose& target) : chain_(chain), target_(target), J_(6, 7) {
+PoseCurve::PoseCurve(const SerialChain& chain, const Pose& target, std::shared_ptr<const ArmPose> arm)
+    : chain_(chain), target_(target), arm_(std::move(arm)), J_(6, 7) {
   for (int i = 0; i < kRedundantJoints; ++i) unit_[i] = isRevolute(i) ? 1.0 : chain.characteristicLength();
   weight_ = unit_.cwiseProduct(unit_).cwiseInverse();
 }
@@ -68,12 +71,10 @@ bool PoseCurve::correct(const Vector7& q, double reach, SelfMotionNode& node) {
   for (int i = 0; i < kMaxSteps; ++i) {
     Vector6 error = poseDifference(target_, geometricJacobian(chain_, node.q, J_));
     error.head<3>() /= length;
-    J_.topRows<3>() /= length;
-    Eigen::Matrix<double, 6, kRedundantJoints> scaled;
-    for (int k = 0; k < kRedundantJoints; ++k) scaled.col(k) = unit_[k] * J_.col(k);
-    const Factor factor(scaled);
+    const Factor factor(scaledJacobian());
     node.tangent = factor.tangent().cwiseProduct(unit_);
     node.gain = factor.gain();
+    node.noise = kNoise / std::max(node.gain, kLeastGain);
     const double size = error.norm();
     if (size <= kRounding || (size <= kGoodEnough && size > 0.25 * before)) return true;
     node.q += factor.step(error).cwiseProduct(unit_);
@@ -85,17 +86,36 @@ bool PoseCurve::correct(const Vector7& q, double reach, SelfMotionNode& node) {
   return before <= kGoodEnough;
 }
 
+PoseCurve::ScaledJacobian PoseCurve::scaledJacobian() const {
+  ScaledJacobian scaled;
+  for (int k = 0; k < kRedundantJoints; ++k) scaled.col(k) = unit_[k] * J_.col(k);
+  scaled.topRows<3>() /= chain_.characteristicLength();
+  return scaled;
+}
+
+double PoseCurve::gainAt(const Vector7& q) {
+  geometricJacobian(chain_, q, J_);
+  return Factor(scaledJacobian()).gain();
+}
+
 Eigen::Matrix<double, kRedundantJoints, 2> PoseCurve::weakestPlane(const Vector7& q) {
   geometricJacobian(chain_, q, J_);
-  J_.topRows<3>() /= chain_.characteristicLength();
-  Eigen::Matrix<double, 6, kRedundantJoints> scaled;
-  for (int k = 0; k < kRedundantJoints; ++k) scaled.col(k) = unit_[k] * J_.col(k);
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, kRedundantJoints>> svd(scaled, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<ScaledJacobian> svd(scaledJacobian(), Eigen::ComputeFullV);
   return unit_.asDiagonal() * svd.matrixV().rightCols<2>();
 }
 
 bool PoseCurve::between(const SelfMotionNode& a, const SelfMotionNode& b, double share, SelfMotionNode& node) {
   const double span = b.arc - a.arc;
+  if (arm_ != nullptr && std::isfinite(a.angle) && std::isfinite(b.angle)) {
+    // The arm angle as a cubic of the arc; where the two ways of a group meet, the cubic of the joints decides.
+    const double r = 1.0 - share;
+    const double angle = r * r * (1.0 + 2.0 * share) * a.angle + share * share * (1.0 + 2.0 * r) * b.angle +
+                         span * share * r * (r * a.angle_rate - share * b.angle_rate);
+    arm_->at(arm_->elbowOf(a), angle, nullptr, cubicBetween(a, b, share), node);
+    node.gain = gainAt(node.q);
+    node.arc = a.arc + share * span;
+    return true;
+  }
   if (!correct(cubicBetween(a, b, share), 0.5 * span + 1e-9, node)) return false;
   if (dot(node.tangent, a.tangent + b.tangent) < 0.0) node.tangent = -node.tangent;
   node.arc = a.arc + share * span;

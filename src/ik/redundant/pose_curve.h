@@ -1,6 +1,9 @@
 #ifndef SCREWLINE_SRC_IK_REDUNDANT_POSE_CURVE_H
 #define SCREWLINE_SRC_IK_REDUNDANT_POSE_CURVE_H
 
+#include <memory>
+
+#include "arm_circle.h"
 #include "screwline/ik/redundant/self_motion.h"
 #include "screwline/kinematics/jacobian.h"
 
@@ -11,18 +14,23 @@ namespace screwline {
 /// Not for several threads at once; allocates when it is made only.
 class PoseCurve {
  public:
-  PoseCurve(const SerialChain& chain, const Pose& target);
+  /// `arm`: whose closed form tells nodes that have an arm angle; may be null.
+  PoseCurve(const SerialChain& chain, const Pose& target, std::shared_ptr<const ArmPose> arm = nullptr);
 
   const SerialChain& chain() const { return chain_; }
+  const std::shared_ptr<const ArmPose>& arm() const { return arm_; }
 
   /// Newton steps of least norm until rounding is reached. False where that fails or leads further than `reach` away;
   /// `node` is then undefined. Its tangent is oriented by the Jacobian's minors: along the curve it does not turn back,
   /// on the other side of a crossing it does.
   bool correct(const Vector7& q, double reach, SelfMotionNode& node);
 
-  /// Point between two nodes at share 0..1 of the way: cubic by their tangents, then corrected. Its tangent runs the
-  /// way of `a`'s.
+  /// Point between two nodes at share 0..1 of the way: cubic by their tangents, then corrected; or by the arm angle.
+  /// Its tangent runs the way of `a`'s.
   bool between(const SelfMotionNode& a, const SelfMotionNode& b, double share, SelfMotionNode& node);
+
+  /// Least pivot of the Jacobian, lengths over the chain's.
+  double gainAt(const Vector7& q);
 
   /// The two directions that move the tip least at a configuration, of norm 1 and across each other.
   Eigen::Matrix<double, kRedundantJoints, 2> weakestPlane(const Vector7& q);
@@ -34,8 +42,12 @@ class PoseCurve {
   bool isRevolute(int joint) const { return chain_.joint(joint).isRevolute(); }
 
  private:
+  using ScaledJacobian = Eigen::Matrix<double, 6, kRedundantJoints>;
+  ScaledJacobian scaledJacobian() const;  ///< Of J_: lengths over the chain's.
+
   const SerialChain& chain_;
   Pose target_;
+  std::shared_ptr<const ArmPose> arm_;
   Vector7 unit_;    ///< Of each joint: 1 rad, or the chain's length.
   Vector7 weight_;  ///< unit^-2
   Matrix6X J_;

@@ -91,6 +91,8 @@ Candidate candidateOf(const RedundantSolver& solver, const Pose& target, const S
   candidate.q = sheet.member.q;
   candidate.branch = sheet.branch;
   candidate.free = sheet.free;
+  candidate.member = sheet.member_at;
+  if (candidate.member) return candidate;
   const int parameter = solver.parameterJoint();
   const bool moves = std::find(sheet.free.begin(), sheet.free.end(), parameter) != sheet.free.end();
   const RedundantSolution member = sheet.member;
@@ -154,7 +156,7 @@ void sortAnswers(SelfMotionAnswers& result) {
 SelfMotionAnswers SelfMotionSolver::answer(const SelfMotionQuestion& question) const {
   const SelfMotionSet set = trace(question);
   const Vector7 seed = seedOf(chain_, question);
-  PoseCurve pose(chain_, question.target);
+  PoseCurve pose = poseCurve(question.target);
   SelfMotionAnswers result;
   result.complete = set.complete;
   result.note = set.note;
@@ -180,7 +182,7 @@ SelfMotionAnswers SelfMotionSolver::answerAt(const SelfMotionQuestion& question,
   const Vector7 seed = seedOf(chain_, question);
   RedundantSolutions solutions;
   closed_form_->solveAt(question.target, value, seed, solutions);
-  PoseCurve pose(chain_, question.target);
+  PoseCurve pose = poseCurve(question.target);
   SelfMotionAnswers result;
   result.complete = true;
   for (const RedundantSolution& solution : solutions) {

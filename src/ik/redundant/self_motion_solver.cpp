@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "arm_curves.h"
 #include "component_finder.h"
 #include "curve_cut.h"
 #include "curve_optimum.h"
@@ -68,6 +69,21 @@ void conclude(const SerialChain& chain, bool closed_form, SelfMotionSet& set) {
   set.complete = set.complete && !broken;
 }
 
+/// The curve that has the node nearest to the seed.
+void putFirst(const PoseCurve& pose, const Vector7& seed, std::vector<SelfMotionCurve>& curves) {
+  auto best = curves.begin();
+  double least = std::numeric_limits<double>::infinity();
+  for (auto curve = curves.begin(); curve != curves.end(); ++curve) {
+    for (const SelfMotionNode& node : curve->nodes) {
+      const double off = pose.norm(pose.difference(node.q, seed));
+      if (off >= least) continue;
+      least = off;
+      best = curve;
+    }
+  }
+  if (best != curves.end()) std::rotate(curves.begin(), best, best + 1);
+}
+
 /// Where the tip moves in less than six dimensions solutions are surfaces, not curves.
 bool isAlwaysSingular(const SerialChain& chain) {
   Matrix6X J(6, kRedundantJoints);
@@ -103,7 +119,9 @@ SelfMotionSolver::SelfMotionSolver(const SerialChain& chain)
     const std::optional<ReachMargin> margin = ReachMargin::compile(chain, closed_form_->parameterJoint());
     if (margin) margin_ = std::make_shared<const ReachMargin>(*margin);
   }
-  method_ = closed_form_ ? closed_form_->method() + ", self-motions followed along the null space"
+  if (const std::optional<ArmCircle> arm = ArmCircle::compile(chain)) arm_ = std::make_shared<const ArmCircle>(*arm);
+  method_ = closed_form_ ? closed_form_->method() + (arm_ ? ", self-motions by the arm angle"
+                                                          : ", self-motions followed along the null space")
                          : "numerical search for starts, self-motions followed along the null space";
 }
 
@@ -113,20 +131,59 @@ std::optional<SelfMotionSolver> SelfMotionSolver::compile(const SerialChain& cha
 }
 
 SelfMotionSet SelfMotionSolver::trace(const SelfMotionQuestion& question) const {
-  PoseCurve pose(chain_, question.target);
+  PoseCurve pose = poseCurve(question.target);
+  SelfMotionSet set;
+  if (pose.arm() != nullptr) {
+    addArmCurves(pose, pose.arm(), set);
+    if (question.seed.size() > 0) putFirst(pose, question.seed, set.curves);
+    set.complete = true;
+    finish(question, pose, 0, set.curves);
+    nameSheets(question.target, set.sheets);
+  } else {
+    follow(question, pose, set);
+  }
+  conclude(chain_, closed_form_.has_value(), set);
+  return set;
+}
+
+PoseCurve SelfMotionSolver::poseCurve(const Pose& target) const {
+  if (arm_ == nullptr) return PoseCurve(chain_, target);
+  const auto arm = std::make_shared<const ArmPose>(arm_, target);
+  return PoseCurve(chain_, target, arm->isRegular() ? arm : nullptr);
+}
+
+/// Fills what nodes tell, of curves from one on.
+void SelfMotionSolver::finish(const SelfMotionQuestion& question, PoseCurve& pose, std::size_t from,
+                              std::vector<SelfMotionCurve>& curves) const {
+  for (std::size_t i = from; i < curves.size(); ++i) {
+    splitAtExtrema(pose, curves[i]);
+    question.ignore_limits ? keepWhole(curves[i]) : cutByLimits(pose, curves[i]);
+    splitAtFolds(curves[i], parameterJoint());
+    if (closed_form_) nameArcs(pose, *closed_form_, question.target, curves[i]);
+  }
+}
+
+void SelfMotionSolver::nameSheets(const Pose& target, std::vector<SelfMotionSheet>& sheets) const {
+  if (!closed_form_) return;
+  RedundantSolutions solutions;
+  for (SelfMotionSheet& sheet : sheets) {
+    const Vector7& q = sheet.member.q;
+    closed_form_->solveAt(target, q[parameterJoint()], q, solutions);
+    double least = std::numeric_limits<double>::infinity();
+    for (const RedundantSolution& solution : solutions) {
+      const double off = (0.5 * (solution.q - q)).array().sin().matrix().norm();
+      if (off >= least) continue;
+      least = off;
+      sheet.branch = closed_form_->branchName(solution);
+    }
+  }
+}
+
+/// Curves along the null space, from slices or from starts that are searched.
+void SelfMotionSolver::follow(const SelfMotionQuestion& question, PoseCurve& pose, SelfMotionSet& set) const {
   const RedundantSolver* solver = closed_form_ ? &*closed_form_ : nullptr;
   ComponentFinder finder(pose, solver, question.target);
   if (question.seed.size() > 0) finder.addStart(question.seed, kNear);
-  SelfMotionSet set;
-  const auto finish = [&](std::size_t from) {
-    for (std::size_t i = from; i < finder.curves().size(); ++i) {
-      SelfMotionCurve& curve = finder.curves()[i];
-      splitAtExtrema(pose, curve);
-      question.ignore_limits ? keepWhole(curve) : cutByLimits(pose, curve);
-      splitAtFolds(curve, parameterJoint());
-      if (solver != nullptr) nameArcs(pose, *solver, question.target, curve);
-    }
-  };
   if (solver != nullptr) {
     finder.addGrid();
     if (margin_) finder.addExtrema(*margin_);
@@ -134,7 +191,7 @@ SelfMotionSet SelfMotionSolver::trace(const SelfMotionQuestion& question) const 
   } else {
     for (const VectorX& q : searched(chain_, question, kStarts, 0, false)) finder.addStart(q, kNear);
   }
-  finish(0);
+  finish(question, pose, 0, finder.curves());
   set.curves = finder.curves();
   set.sheets = finder.sheets();
   const bool found = question.ignore_limits ? !set.curves.empty() : hasInterval(set);
@@ -146,18 +203,16 @@ SelfMotionSet SelfMotionSolver::trace(const SelfMotionQuestion& question) const 
       finder.addValue(q[solver->parameterJoint()]);
       finder.finishSheets();
     }
-    finish(before);
+    finish(question, pose, before, finder.curves());
     set.curves = finder.curves();
     set.sheets = finder.sheets();
   }
   set.complete = solver != nullptr && finder.unexplained() == 0;
-  conclude(chain_, solver != nullptr, set);
-  return set;
 }
 
 VectorX SelfMotionSolver::bestMember(const SelfMotionQuestion& question, const SelfMotionCurve& curve,
                                      const SelfMotionInterval& interval, SelfMotionGoal goal) const {
-  PoseCurve pose(chain_, question.target);
+  PoseCurve pose = poseCurve(question.target);
   const Vector7 seed = seedOf(chain_, question);
   if (goal == SelfMotionGoal::kNearestToSeed) {
     const SelfMotionNode node = nearestNode(pose, curve, interval, seed, question.ignore_limits);

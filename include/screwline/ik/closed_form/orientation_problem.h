@@ -57,6 +57,7 @@ class OrientationProblem {
   static void takeFrom(const TurnBatch& batch, const OrientationTurns& turns, double preferred,
                        OrientationSolutions& solutions);
 
+  bool isAcross() const { return across_; }           ///< Neighbours are at right angles.
   const Matrix3& nearFrame() const { return near_; }  ///< N; its z is axis 1.
   const Matrix3& farFrame() const { return far_; }    ///< F; its z is axis 3.
 

@@ -1,6 +1,8 @@
 #ifndef SCREWLINE_IK_REDUNDANT_SELF_MOTION_H
 #define SCREWLINE_IK_REDUNDANT_SELF_MOTION_H
 
+#include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +14,14 @@ namespace screwline {
 /// A configuration on a self-motion. Arc length is the Euclidean norm in rad, prismatic joints divided by the chain's
 /// characteristic length.
 struct SelfMotionNode {
-  Vector7 q;          ///< [rad or m] follows on from the nodes before: not wrapped.
-  Vector7 tangent;    ///< dq / d arc, the way of the curve.
-  double arc = 0.0;   ///< Arc length from the curve's first node (by chords' cubics, to 1e-3 of a step).
-  double gain = 0.0;  ///< Least pivot of the Jacobian: near the smallest singular value; 0 where curves cross.
+  Vector7 q;           ///< [rad or m] follows on from the nodes before: not wrapped.
+  Vector7 tangent;     ///< dq / d arc, the way of the curve.
+  double arc = 0.0;    ///< Arc length from the curve's first node (by chords' cubics, to 1e-3 of a step).
+  double gain = 0.0;   ///< Least pivot of the Jacobian: near the smallest singular value; 0 where curves cross.
+  double noise = 0.0;  ///< Of the tangent: what is below it may be rounding.
+  /// [rad] Arm angle, where the curve is a closed form of it; else no number.
+  double angle = std::numeric_limits<double>::quiet_NaN();
+  double angle_rate = 0.0;  ///< d angle / d arc
 };
 
 /// Part of a curve along which the parameter joint moves one way: one branch over an interval of the parameter.
@@ -51,6 +57,8 @@ struct SelfMotionSheet {
   std::vector<int> free;
   bool parameter_moves = false;
   std::string branch;
+  /// The member with wished values of `free`, where another closed form than the parameter joint's tells it.
+  std::function<bool(const VectorX& wished, VectorX& q)> member_at;
 };
 
 struct SelfMotionSet {

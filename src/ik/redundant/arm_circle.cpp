@@ -1,0 +1,215 @@
+#include "arm_circle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../closed_form/eliminant.h"
+#include "screwline/model/structure.h"
+#include "screwline/spatial/rotation.h"
+
+namespace screwline {
+namespace {
+
+constexpr double kSamePoint = 1e-9;  // Of the chain's length.
+constexpr double kBeside = 1e-6;     // [rad] of the arm angle.
+constexpr double kRounding = 1e-14;  // [rad] of directions; over the sine between axes, of tangents.
+
+Matrix3 aboutZ(double angle) {
+  return rotationAbout(Vector3::UnitZ(), angle);
+}
+
+/// A right-handed frame with a direction as z.
+Matrix3 frameOn(const Vector3& z) {
+  Matrix3 frame;
+  frame.col(2) = z;
+  frame.col(0) = anyPerpendicular(z);
+  frame.col(1) = z.cross(frame.col(0));
+  return frame;
+}
+
+std::optional<ArmCircle::Group> groupAt(const SerialChain& chain, int first) {
+  const auto at = [&](int i) { return chain.axes()[static_cast<std::size_t>(first + i)]; };
+  const std::array<Axis, 3> axes = {at(0), at(1), at(2)};
+  const std::optional<OrientationProblem> problem = OrientationProblem::compile(axes);
+  if (!problem || !problem->isAcross()) return std::nullopt;
+  return ArmCircle::Group{*problem, {axes[0].direction, axes[1].direction, axes[2].direction}};
+}
+
+/// Rates of three turns whose axes make up an angular velocity.
+Vector3 made(const Vector3& velocity, const Vector3& a, const Vector3& b, const Vector3& c) {
+  const double volume = a.dot(b.cross(c));
+  return Vector3(velocity.dot(b.cross(c)), velocity.dot(c.cross(a)), velocity.dot(a.cross(b))) / volume;
+}
+
+}  // namespace
+
+ArmCircle::ArmCircle(const SerialChain& chain, const Group& shoulder, const Group& wrist)
+    : chain_(chain), groups_{shoulder, wrist} {}
+
+std::optional<ArmCircle> ArmCircle::compile(const SerialChain& chain) {
+  if (chain.size() != kRedundantJoints || chain.hasMimic()) return std::nullopt;
+  const Structure structure = structureOf(chain);
+  const auto center = [&](int first) -> std::optional<Vector3> {
+    for (const ConcurrentGroup& group : structure.spherical) {
+      if (group.first <= first && group.first + group.count >= first + 3) return group.center;
+    }
+    return std::nullopt;
+  };
+  const std::optional<Vector3> shoulder = center(0);
+  const std::optional<Vector3> wrist = center(4);
+  if (!shoulder || !wrist || chain.axes()[3].prismatic) return std::nullopt;
+  const std::optional<Group> first = groupAt(chain, 0);
+  const std::optional<Group> last = groupAt(chain, 4);
+  if (!first || !last) return std::nullopt;
+  ArmCircle arm(chain, *first, *last);
+  arm.shoulder_center_ = *shoulder;
+  arm.wrist_center_ = *wrist;
+  return arm;
+}
+
+ArmPose::ArmPose(std::shared_ptr<const ArmCircle> arm, const Pose& target) : arm_(std::move(arm)) {
+  const SerialChain& chain = arm_->chain();
+  const Pose X = target * chain.home().inverse();
+  const Vector3 to_wrist = X * arm_->wristCenter() - arm_->shoulderCenter();
+  const double distance = to_wrist.norm();
+  const double length = chain.characteristicLength();
+  rotation_ = X.R;
+  regular_ = distance > kSamePoint * length;
+  if (!regular_) return;
+  line_ = to_wrist / distance;
+  const Axis& axis = chain.axes()[3];
+  const CarriedPoint carried(axis, arm_->wristCenter());
+  const RealRoots roots = solveForm(carried.squareFrom(arm_->shoulderCenter()) + -distance * distance, false,
+                                    length * length + distance * distance);
+  if (roots.always) regular_ = false;
+  for (const RealRoot& root : roots) addElbow(root.turn.angle(), carried.at(0.0, root.turn), axis.direction);
+}
+
+void ArmPose::addElbow(double q, const Vector3& wrist, const Vector3& axis) {
+  const ArmCircle::Group& shoulder = arm_->shoulder();
+  const ArmCircle::Group& hand = arm_->wrist();
+  const Matrix3 line = frameOn(line_);
+  Elbow elbow;
+  elbow.q = q;
+  elbow.turn = rotationAbout(axis, q);
+  const Matrix3 align = line * frameOn((wrist - arm_->shoulderCenter()).normalized()).transpose();
+  elbow.shoulder_before = shoulder.problem.nearFrame().transpose() * line;
+  elbow.shoulder_behind = line.transpose() * align * shoulder.problem.farFrame();
+  elbow.wrist_before = hand.problem.nearFrame().transpose() * elbow.turn.transpose() * align.transpose() * line;
+  elbow.wrist_behind = line.transpose() * rotation_ * hand.problem.farFrame();
+  recentre(elbow);
+  elbows_.push_back(elbow);
+}
+
+void ArmPose::recentre(Elbow& elbow) {
+  double centre = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (bool shoulder : {true, false}) {
+    for (double angle : extremes(elbow, shoulder)) {
+      const double sine = outOfLine(elbow, angle, shoulder);
+      if (sine >= least) continue;
+      least = sine;
+      centre = angle;
+    }
+  }
+  elbow.shoulder_behind = aboutZ(centre) * elbow.shoulder_behind;
+  elbow.wrist_before = elbow.wrist_before * aboutZ(-centre);
+}
+
+/// The third axis in the first one's frame: its cosine is a sinusoid of the arm angle.
+std::array<double, 2> ArmPose::extremes(const Elbow& elbow, bool shoulder) {
+  const Matrix3& before = shoulder ? elbow.shoulder_before : elbow.wrist_before;
+  const Matrix3& behind = shoulder ? elbow.shoulder_behind : elbow.wrist_behind;
+  const double turn = std::atan2(before(2, 1), before(2, 0)) - std::atan2(behind(1, 2), behind(0, 2));
+  const double angle = wrapAngle(shoulder ? turn : -turn);
+  return {angle, wrapAngle(angle + kPi)};
+}
+
+const ArmPose::Elbow& ArmPose::elbowOf(const SelfMotionNode& node) const {
+  return *std::min_element(elbows_.begin(), elbows_.end(), [&](const Elbow& a, const Elbow& b) {
+    return std::abs(std::remainder(a.q - node.q[3], kTwoPi)) < std::abs(std::remainder(b.q - node.q[3], kTwoPi));
+  });
+}
+
+double ArmPose::solve(const Elbow& elbow, double angle, const ArmSigns* signs, const Vector7& near, Vector7& q) const {
+  const Matrix3 turn = aboutZ(angle);
+  const Matrix3 shoulder = elbow.shoulder_before * turn * elbow.shoulder_behind;
+  const Matrix3 wrist = elbow.wrist_before * turn.transpose() * elbow.wrist_behind;
+  TurnBatch batch;
+  const OrientationTurns shoulder_turns = arm_->shoulder().problem.turnsInFrames(shoulder, 0.0, near[0], batch);
+  const OrientationTurns wrist_turns = arm_->wrist().problem.turnsInFrames(wrist, 0.0, near[4], batch);
+  batch.takeAngles();
+  const auto take = [&](const OrientationTurns& turns, int first, int wished) {
+    OrientationSolutions solutions;
+    OrientationProblem::takeFrom(batch, turns, near[first], solutions);
+    double least = std::numeric_limits<double>::infinity();
+    for (const OrientationSolution& solution : solutions) {
+      Vector3 step;
+      for (int i = 0; i < 3; ++i)
+        step[i] = std::remainder(solution.q[static_cast<std::size_t>(i)] - near[first + i], kTwoPi);
+      const bool asked = wished == 0 || solution.sign == 0 || solution.sign == wished;
+      if (!asked || step.norm() >= least) continue;
+      least = step.norm();
+      q.segment<3>(first) = near.segment<3>(first) + step;
+    }
+  };
+  take(shoulder_turns, 0, signs == nullptr ? 0 : signs->shoulder);
+  take(wrist_turns, 4, signs == nullptr ? 0 : signs->wrist);
+  q[3] = near[3] + std::remainder(elbow.q - near[3], kTwoPi);
+  if (shoulder_turns.free || wrist_turns.free) return 0.0;
+  return std::min(shoulder.topRightCorner<2, 1>().norm(), wrist.topRightCorner<2, 1>().norm());
+}
+
+void ArmPose::at(const Elbow& elbow, double angle, const ArmSigns* signs, const Vector7& near,
+                 SelfMotionNode& node) const {
+  double sine = solve(elbow, angle, signs, near, node.q);
+  Vector7 q = node.q;
+  // Where axes are in line the tangent is that beside it.
+  if (sine == 0.0) sine = solve(elbow, angle + kBeside, signs, near, q);
+  const Vector7 rate = rates(elbow, q);
+  const double speed = rate.norm();
+  node.angle = angle;
+  node.angle_rate = 1.0 / speed;
+  node.tangent = rate / speed;
+  node.noise = kRounding / std::max(sine, kRounding);
+}
+
+double ArmPose::outOfLine(const Elbow& elbow, double angle, bool shoulder) {
+  const Matrix3 turn = aboutZ(angle);
+  const Matrix3 M = shoulder ? Matrix3(elbow.shoulder_before * turn * elbow.shoulder_behind)
+                             : Matrix3(elbow.wrist_before * turn.transpose() * elbow.wrist_behind);
+  return M.topRightCorner<2, 1>().norm();
+}
+
+double ArmPose::angleOf(const Elbow& elbow, bool shoulder, const Vector7& q) const {
+  Vector7 member;
+  solve(elbow, 0.0, nullptr, q, member);
+  const ArmCircle::Group& group = shoulder ? arm_->shoulder() : arm_->wrist();
+  const int first = shoulder ? 0 : 4;
+  const Matrix3 turned = rotationAbout(group.axis[0], q[first]) * rotationAbout(group.axis[1], member[first + 1]) *
+                         rotationAbout(group.axis[2], q[first + 2]);
+  const Matrix3 M = group.problem.nearFrame().transpose() * turned * group.problem.farFrame();
+  const Matrix3 turn = shoulder ? Matrix3(elbow.shoulder_before.transpose() * M * elbow.shoulder_behind.transpose())
+                                : Matrix3(elbow.wrist_behind * M.transpose() * elbow.wrist_before);
+  return std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
+}
+
+/// Joint velocities at unit rate of the arm angle: the shoulder turns the arm about the line, the wrist turns back.
+Vector7 ArmPose::rates(const Elbow& elbow, const Vector7& q) const {
+  const auto turned = [&](const ArmCircle::Group& group, const Matrix3& base, int first) {
+    const Matrix3 one = rotationAbout(group.axis[0], q[first]);
+    const Matrix3 two = one * rotationAbout(group.axis[1], q[first + 1]);
+    return std::array<Vector3, 3>{base * group.axis[0], base * (one * group.axis[1]), base * (two * group.axis[2])};
+  };
+  const std::array<Vector3, 3> s = turned(arm_->shoulder(), Matrix3::Identity(), 0);
+  const Matrix3 shoulder = rotationAbout(arm_->shoulder().axis[0], q[0]) *
+                           rotationAbout(arm_->shoulder().axis[1], q[1]) *
+                           rotationAbout(arm_->shoulder().axis[2], q[2]);
+  const std::array<Vector3, 3> w = turned(arm_->wrist(), shoulder * elbow.turn, 4);
+  Vector7 rate;
+  rate << made(line_, s[0], s[1], s[2]), 0.0, made(-line_, w[0], w[1], w[2]);
+  return rate;
+}
+
+}  // namespace screwline

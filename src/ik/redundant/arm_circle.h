@@ -1,0 +1,103 @@
+#ifndef SCREWLINE_SRC_IK_REDUNDANT_ARM_CIRCLE_H
+#define SCREWLINE_SRC_IK_REDUNDANT_ARM_CIRCLE_H
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "screwline/ik/closed_form/orientation_problem.h"
+#include "screwline/ik/redundant/self_motion.h"
+
+namespace screwline {
+
+/// Seven turns of which the first three and the last three meet, with neighbours at right angles (S-R-S): the elbow's
+/// angle is fixed by the distance between the two points, what is left is a turn of the arm about the line through
+/// them (the arm angle, Kreutz-Delgado et al. 1992; Shimizu et al. 2008). Every solution is closed form of that angle,
+/// also where the Jacobian tells nothing: with a straight elbow, aligned axes, and next to these. Immutable.
+class ArmCircle {
+ public:
+  static std::optional<ArmCircle> compile(const SerialChain& chain);
+
+  /// One of the groups of three axes.
+  struct Group {
+    OrientationProblem problem;
+    std::array<Vector3, 3> axis;  ///< At zero.
+  };
+
+  const Group& shoulder() const { return groups_[0]; }
+  const Group& wrist() const { return groups_[1]; }
+  const SerialChain& chain() const { return chain_; }
+  const Vector3& shoulderCenter() const { return shoulder_center_; }
+  const Vector3& wristCenter() const { return wrist_center_; }
+
+ private:
+  ArmCircle(const SerialChain& chain, const Group& shoulder, const Group& wrist);
+
+  SerialChain chain_;
+  std::array<Group, 2> groups_;
+  Vector3 shoulder_center_;
+  Vector3 wrist_center_;  ///< At zero.
+};
+
+/// Which of the two ways a group turns: the sign of the sine of its middle angle.
+struct ArmSigns {
+  int shoulder = 1;
+  int wrist = 1;
+  bool operator==(const ArmSigns& other) const { return shoulder == other.shoulder && wrist == other.wrist; }
+};
+
+/// The solutions of one pose. Immutable.
+class ArmPose {
+ public:
+  ArmPose(std::shared_ptr<const ArmCircle> arm, const Pose& target);
+
+  /// One value of the elbow; the rotations on both sides of the arm angle, in the groups' frames. The arm angle is zero
+  /// where axes come nearest to being in line: there joints may turn much faster than it.
+  struct Elbow {
+    double q = 0.0;
+    Matrix3 shoulder_before, shoulder_behind;  ///< M(shoulder) = before Rz(angle) behind
+    Matrix3 wrist_before, wrist_behind;        ///< M(wrist) = before Rz(-angle) behind
+    Matrix3 turn;                              ///< Of the elbow.
+  };
+
+  /// None where the pose is out of reach, or the points coincide.
+  const std::vector<Elbow>& elbows() const { return elbows_; }
+  /// False where the wrist's point lies in the shoulder's: all directions of the arm are solutions.
+  bool isRegular() const { return regular_; }
+
+  /// Fills q, tangent, noise, angle and angle_rate. Without `signs`, the ways nearest to `near` are taken; turns are
+  /// those nearest to it, and joints that turn out free have its values.
+  void at(const Elbow& elbow, double angle, const ArmSigns* signs, const Vector7& near, SelfMotionNode& node) const;
+
+  /// The configuration alone. Returns the lesser sine between first and third axes of the groups; 0 where one is free.
+  double solve(const Elbow& elbow, double angle, const ArmSigns* signs, const Vector7& near, Vector7& q) const;
+
+  /// The arm angle that three turns of a group make whose axes are in line at every arm angle; of q the turns about the
+  /// first and the third axis count.
+  double angleOf(const Elbow& elbow, bool shoulder, const Vector7& q) const;
+
+  /// Arm angles at which the first and the third axis of a group are nearest to being in line, one way and the other;
+  /// any, where they are as near at all of them.
+  static std::array<double, 2> extremes(const Elbow& elbow, bool shoulder);
+
+  /// Sine between the first and the third axis of a group.
+  static double outOfLine(const Elbow& elbow, double angle, bool shoulder);
+
+  /// The elbow whose value a node has.
+  const Elbow& elbowOf(const SelfMotionNode& node) const;
+
+ private:
+  void addElbow(double q, const Vector3& wrist, const Vector3& axis);
+  static void recentre(Elbow& elbow);
+  Vector7 rates(const Elbow& elbow, const Vector7& q) const;
+
+  std::shared_ptr<const ArmCircle> arm_;
+  Vector3 line_;      ///< From the shoulder's point to the wrist's, of norm 1.
+  Matrix3 rotation_;  ///< Of the tip against its orientation at zero.
+  bool regular_ = true;
+  std::vector<Elbow> elbows_;
+};
+
+}  // namespace screwline
+
+#endif  // SCREWLINE_SRC_IK_REDUNDANT_ARM_CIRCLE_H
