@@ -386,9 +386,9 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
   if (!self.redundant || curves_say_nothing) any = self.gather(request, builder, result) || any;
   self.admitSeed(request, builder, result);
   const bool other_branch = !request.branch.empty() && any;
-  if (result.complete && result.solutions.empty() && result.outside_limits == 0 && !other_branch)
-    self.doubtUnreachable(request, builder, result);
-  const bool existed = result.outside_limits > 0 || !result.solutions.empty();
+  const auto exists = [&result] { return result.outside_limits > 0 || !result.solutions.empty(); };
+  if (result.complete && !other_branch && !exists()) self.doubtUnreachable(request, builder, result);
+  const bool existed = exists();
   self.conclude(request, builder, result);
   if (result.solutions.empty()) {
     result.status = existed || other_branch ? IkStatus::kOutsideLimits

@@ -11,7 +11,8 @@
 namespace screwline {
 namespace {
 
-constexpr int kSlices = 64;
+constexpr int kSlices = 256;
+constexpr int kFewSlices = 64;           // Of a slide, and where each one compiles a closed form.
 constexpr double kShift = 0.0137;        // Slices avoid the values that people choose.
 constexpr double kSamePoint = 1e-6;      // [rad] A configuration this near to a curve is on it.
 constexpr double kRounding = 1e-13;      // Of residuals; over the gain, of solutions.
@@ -74,8 +75,9 @@ ComponentFinder::ComponentFinder(PoseCurve& pose, const RedundantSolver* solver,
     : pose_(pose), solver_(solver), target_(target) {
   if (solver == nullptr) return;
   const int joint = solver->parameterJoint();
+  slices_ = solver->compiledOnce() && pose.isRevolute(joint) ? kSlices : kFewSlices;
   if (pose.isRevolute(joint)) {
-    step_ = kTwoPi / kSlices;
+    step_ = kTwoPi / slices_;
     first_ = -kPi + kShift;
     return;
   }
@@ -83,16 +85,16 @@ ComponentFinder::ComponentFinder(PoseCurve& pose, const RedundantSolver* solver,
   const double far = kFarthestSlide * pose.chain().characteristicLength() + target.p.norm();
   first_ = std::max(limits.lower, -far);
   const double last = std::max(first_, std::min(limits.upper, far));
-  step_ = std::max((last - first_) / kSlices, 1e-9);
+  step_ = std::max((last - first_) / slices_, 1e-9);
   first_ += 0.5 * step_;
 }
 
 void ComponentFinder::addGrid() {
-  grid_.resize(kSlices);
-  covered_.assign(kSlices, 0U);
-  for (int slice = 0; slice < kSlices; ++slice)
+  grid_.resize(static_cast<std::size_t>(slices_));
+  covered_.assign(static_cast<std::size_t>(slices_), 0U);
+  for (int slice = 0; slice < slices_; ++slice)
     solver_->solveAt(target_, first_ + slice * step_, Vector7::Zero(), grid_[static_cast<std::size_t>(slice)]);
-  for (int slice = 0; slice < kSlices; ++slice) {
+  for (int slice = 0; slice < slices_; ++slice) {
     const auto i = static_cast<std::size_t>(slice);
     for (int k = 0; k < grid_[i].count; ++k) {
       const RedundantSolution& solution = grid_[i].solutions[static_cast<std::size_t>(k)];
@@ -106,7 +108,7 @@ void ComponentFinder::addGrid() {
 }
 
 void ComponentFinder::addExtrema(const ReachMargin& margin) {
-  for (double value : margin.maxima(target_, first_, first_ + kSlices * step_, kSlices)) addValue(value);
+  for (double value : margin.maxima(target_, first_, first_ + slices_ * step_, slices_)) addValue(value);
 }
 
 void ComponentFinder::addValue(double value) {
@@ -164,8 +166,8 @@ void ComponentFinder::coverGrid(const SelfMotionCurve& curve) {
     const double low = std::min(a.q[joint], b.q[joint]);
     const double high = std::max(a.q[joint], b.q[joint]);
     for (double k = std::ceil((low - first_) / step_); first_ + k * step_ <= high; k += 1.0) {
-      if (!turns && (k < 0.0 || k >= kSlices)) continue;
-      const auto slice = static_cast<std::size_t>(k - kSlices * std::floor(k / kSlices));
+      if (!turns && (k < 0.0 || k >= slices_)) continue;
+      const auto slice = static_cast<std::size_t>(k - slices_ * std::floor(k / slices_));
       const Vector7 q = cubicBetween(a, b, shareAt(a, b, joint, first_ + k * step_));
       double least = kCubicError;
       int nearest = -1;

@@ -46,6 +46,7 @@ class ComponentFinder {
   PoseCurve& pose_;
   const RedundantSolver* solver_;
   Pose target_;
+  int slices_ = 0;
   double first_ = 0.0;  ///< Value of the first slice; the others follow by step_.
   double step_ = 0.0;
   std::vector<RedundantSolutions> grid_;

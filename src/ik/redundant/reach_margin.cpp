@@ -10,7 +10,6 @@
 namespace screwline {
 namespace {
 
-constexpr int kSamplesOfSlice = 8;      // A bump between slices is seen by these.
 constexpr double kLeastMargin = -1e-9;  // A maximum that rounding may have put below zero.
 
 /// Negative where three sides do not close to a triangle.
@@ -82,25 +81,18 @@ double ReachMargin::at(const Pose& target, double value, double side) const {
   return std::min((1.0 - std::abs(cosine)) * std::min(1.0, amplitude / (g.length * g.length)), second / g.length);
 }
 
-std::vector<double> ReachMargin::maxima(const Pose& target, double first, double last, int slices) const {
+std::vector<double> ReachMargin::maxima(const Pose& target, double first, double last, int samples) const {
   std::vector<double> found;
-  const int samples = kSamplesOfSlice * slices;
   const double step = (last - first) / samples;
   std::vector<double> values(static_cast<std::size_t>(samples));
-  const auto value = [&](int i) -> double& { return values[static_cast<std::size_t>((i + samples) % samples)]; };
-  // Where a slice lies within reach next to it, it has been seen.
-  const auto isSeen = [&](int i) {
-    for (int side : {1, -1}) {
-      for (int k = i; std::abs(k - i) < kSamplesOfSlice && value(k) > 0.0; k += side) {
-        if ((k + samples) % kSamplesOfSlice == 0) return true;
-      }
-    }
-    return false;
-  };
   for (double side : {1.0, -1.0}) {
-    for (int i = 0; i < samples; ++i) value(i) = at(target, first + i * step, side);
+    for (int i = 0; i < samples; ++i) values[static_cast<std::size_t>(i)] = at(target, first + i * step, side);
     for (int i = 0; i < samples; ++i) {
-      if (value(i) < value(i - 1) || value(i) < value(i + 1) || isSeen(i)) continue;
+      const double here = values[static_cast<std::size_t>(i)];
+      const double before = values[static_cast<std::size_t>((i + samples - 1) % samples)];
+      const double after = values[static_cast<std::size_t>((i + 1) % samples)];
+      // Where the neighbours are well within reach, slices have seen it.
+      if (here < before || here < after || (before > 0.0 && after > 0.0)) continue;
       constexpr double kGolden = 0.6180339887498949;
       double low = first + (i - 1) * step;
       double high = first + (i + 1) * step;

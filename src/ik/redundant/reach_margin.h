@@ -17,9 +17,8 @@ class ReachMargin {
  public:
   static std::optional<ReachMargin> compile(const SerialChain& chain, int parameter);
 
-  /// Values of the parameter joint where the margin has a local maximum that is not negative and that no slice next to
-  /// it sees: of `slices` that are spaced evenly from the first value on.
-  std::vector<double> maxima(const Pose& target, double first, double last, int slices) const;
+  /// Values of the parameter joint where the margin has a local maximum that is not negative.
+  std::vector<double> maxima(const Pose& target, double first, double last, int samples) const;
 
  private:
   Vector3 goalAt(const Pose& target, double value) const;
