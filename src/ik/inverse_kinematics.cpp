@@ -388,11 +388,10 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
   const bool other_branch = !request.branch.empty() && any;
   const auto exists = [&result] { return result.outside_limits > 0 || !result.solutions.empty(); };
   if (result.complete && !other_branch && !exists()) self.doubtUnreachable(request, builder, result);
-  const bool existed = exists();
   self.conclude(request, builder, result);
   if (result.solutions.empty()) {
-    result.status = existed || other_branch ? IkStatus::kOutsideLimits
-                                            : (result.complete ? IkStatus::kUnreachable : IkStatus::kNotFound);
+    result.status = exists() || other_branch ? IkStatus::kOutsideLimits
+                                             : (result.complete ? IkStatus::kUnreachable : IkStatus::kNotFound);
   }
   result.message = accountOf(request, result, self.doubt(result.indistinct));
   return result;
