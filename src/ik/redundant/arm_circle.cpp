@@ -197,16 +197,19 @@ double ArmPose::angleOf(const Elbow& elbow, bool shoulder, const Vector7& q) con
 
 /// Joint velocities at unit rate of the arm angle: the shoulder turns the arm about the line, the wrist turns back.
 Vector7 ArmPose::rates(const Elbow& elbow, const Vector7& q) const {
-  const auto turned = [&](const ArmCircle::Group& group, const Matrix3& base, int first) {
-    const Matrix3 one = rotationAbout(group.axis[0], q[first]);
-    const Matrix3 two = one * rotationAbout(group.axis[1], q[first + 1]);
-    return std::array<Vector3, 3>{base * group.axis[0], base * (one * group.axis[1]), base * (two * group.axis[2])};
+  // The axes of a group where its base has turned by R, which then is what lies behind the group.
+  const auto axesOf = [&](const ArmCircle::Group& group, int first, Matrix3& R) {
+    std::array<Vector3, 3> axes;
+    for (std::size_t i = 0; i < 3; ++i) {
+      axes[i] = R * group.axis[i];
+      R = R * rotationAbout(group.axis[i], q[first + static_cast<int>(i)]);
+    }
+    return axes;
   };
-  const std::array<Vector3, 3> s = turned(arm_->shoulder(), Matrix3::Identity(), 0);
-  const Matrix3 shoulder = rotationAbout(arm_->shoulder().axis[0], q[0]) *
-                           rotationAbout(arm_->shoulder().axis[1], q[1]) *
-                           rotationAbout(arm_->shoulder().axis[2], q[2]);
-  const std::array<Vector3, 3> w = turned(arm_->wrist(), shoulder * elbow.turn, 4);
+  Matrix3 R = Matrix3::Identity();
+  const std::array<Vector3, 3> s = axesOf(arm_->shoulder(), 0, R);
+  R = R * elbow.turn;
+  const std::array<Vector3, 3> w = axesOf(arm_->wrist(), 4, R);
   Vector7 rate;
   rate << made(line_, s[0], s[1], s[2]), 0.0, made(-line_, w[0], w[1], w[2]);
   return rate;

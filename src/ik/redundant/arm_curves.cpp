@@ -143,7 +143,7 @@ class Circle {
       if (std::find(done.begin(), done.end(), way) != done.end()) continue;
       SelfMotionCurve curve;
       ArmSigns signs = way;
-      curve.nodes.push_back(start(all.front().angle, signs));
+      curve.nodes.push_back(node(all.front().angle, &signs, Vector7::Zero()));
       double turns = 0.0;
       do {
         done.push_back(signs);
@@ -165,12 +165,6 @@ class Circle {
       curve.closed = true;
       set_.curves.push_back(std::move(curve));
     }
-  }
-
-  SelfMotionNode start(double angle, const ArmSigns& signs) const {
-    SelfMotionNode first = node(angle, &signs, Vector7::Zero());
-    first.arc = 0.0;
-    return first;
   }
 
   SelfMotionNode node(double angle, const ArmSigns* signs, const Vector7& near) const {
