@@ -5,16 +5,43 @@
 
 #include "../closed_form/eliminant.h"
 #include "screwline/model/structure.h"
-#include "screwline/spatial/rotation.h"
+#include "screwline/spatial/screw.h"
 
 namespace screwline {
 namespace {
 
 constexpr double kLeastMargin = -1e-9;  // A maximum that rounding may have put below zero.
+constexpr int kBisections = 60;
+
+using Dual = ReachMargin::Dual;
+
+Dual operator+(const Dual& a, const Dual& b) {
+  return {a.value + b.value, a.slope + b.slope};
+}
+Dual operator*(double factor, const Dual& a) {
+  return {factor * a.value, factor * a.slope};
+}
+Dual operator-(const Dual& a, const Dual& b) {
+  return a + -1.0 * b;
+}
+Dual abs(const Dual& a) {
+  return a.value < 0.0 ? -1.0 * a : a;
+}
+Dual min(const Dual& a, const Dual& b) {
+  return b.value < a.value ? b : a;
+}
+/// Of a vector and its rate.
+Dual norm(const Vector3& r, const Vector3& rate) {
+  const double value = r.norm();
+  return {value, value > 0.0 ? r.dot(rate) / value : 0.0};
+}
+Vector3 across(const Vector3& axis, const Vector3& r) {
+  return r - axis.dot(r) * axis;
+}
 
 /// Negative where three sides do not close to a triangle.
-double triangleMargin(double a, double b, double c) {
-  return std::min({a + b - c, a - b + c, -a + b + c});
+Dual triangleMargin(const Dual& a, const Dual& b, const Dual& c) {
+  return min(a + b - c, min(a - b + c, b + c - a));
 }
 
 }  // namespace
@@ -24,12 +51,9 @@ std::optional<ReachMargin> ReachMargin::compile(const SerialChain& chain, int pa
   ReachMargin margin;
   margin.first_ = parameter == 0;
   margin.home_ = chain.home();
-  margin.parameter_ = chain.axes()[static_cast<std::size_t>(parameter)];
-  if (!margin.first_) {
-    const Pose X_TB = chain.home().inverse();
-    margin.parameter_.direction = X_TB.R * margin.parameter_.direction;
-    margin.parameter_.point = X_TB * margin.parameter_.point;
-  }
+  const Axis& given = chain.axes()[static_cast<std::size_t>(parameter)];
+  margin.parameter_ = given.prismatic ? prismaticScrew(given.direction) : revoluteScrew(given.direction, given.point);
+  if (!margin.first_) margin.parameter_ = adjoint(chain.home().inverse()) * margin.parameter_;
   const int offset = margin.first_ ? 1 : 0;
   const auto axis = [&](int i) { return chain.axes()[static_cast<std::size_t>(offset + i)]; };
   for (int place : {3, 0}) {
@@ -50,35 +74,44 @@ std::optional<ReachMargin> ReachMargin::compile(const SerialChain& chain, int pa
   return std::nullopt;
 }
 
-Vector3 ReachMargin::goalAt(const Pose& target, double value) const {
-  Pose X{Matrix3::Identity(), -value * parameter_.direction};
-  if (!parameter_.prismatic) {
-    X.R = rotationAbout(parameter_.direction, -value);
-    X.p = parameter_.point - X.R * parameter_.point;
-  }
-  const Pose rest = first_ ? X * target : target * X;
-  return wrist_ ? rest * (home_.inverse() * center_) : home_ * (rest.inverse() * center_);
+ReachMargin::Goal ReachMargin::goalAt(const Pose& target, double value) const {
+  // The parameter joint carries the point, and `rest` brings it to the frame of the three others.
+  const Pose rest = wrist_ ? (first_ ? Pose() : target) : (first_ ? home_ * target.inverse() : home_);
+  const Vector3 start = wrist_ ? (first_ ? target * (home_.inverse() * center_) : home_.inverse() * center_)
+                               : (first_ ? center_ : target.inverse() * center_);
+  const double way = wrist_ ? -1.0 : 1.0;
+  const Vector3 p = screwExponential(parameter_, way * value) * start;
+  const Vector3 rate = parameter_.head<3>() + parameter_.tail<3>().cross(p);
+  return {rest * p, way * (rest.R * rate)};
 }
 
-double ReachMargin::at(const Pose& target, double value, double side) const {
+ReachMargin::Dual ReachMargin::at(const Pose& target, double value, double side) const {
   const PositionGeometry& g = geometry_;
-  const Vector3 r = goalAt(target, value) - g.axes[0].point;
-  const double height = g.axes[0].direction.dot(r);
-  const double radius = std::hypot(g.x1.dot(r), g.y1.dot(r));
+  const Goal goal = goalAt(target, value);
+  const Vector3 r = goal.point - g.axes[0].point;
+  const Dual height = {g.axes[0].direction.dot(r), g.axes[0].direction.dot(goal.rate)};
+  const Dual radius = norm(across(g.axes[0].direction, r), across(g.axes[0].direction, goal.rate));
   const CarriedPoint carried(g.axes[2], center_);
   const bool meeting = g.kind != PositionKind::kParallelAxes;
   const Form along = carried.along(g.axes[1].direction, g.axes[1].point);
-  const Form left =
-      meeting ? carried.squareFrom(g.axes[1].point) + -(height * height + radius * radius) : g.cosine * along + -height;
+  // What the third axis has to bring: a distance where the others meet, a height where they are parallel.
+  const Form left = meeting ? carried.squareFrom(g.axes[1].point) : g.cosine * along;
+  const Dual brought = meeting ? Dual{r.squaredNorm(), 2.0 * r.dot(goal.rate)} : height;
   const double amplitude = std::hypot(left.a, left.b);
-  if (amplitude == 0.0) return -1.0;
-  const double cosine = -left.k / amplitude;
-  const double turn = std::atan2(left.b, left.a) + side * std::acos(std::clamp(cosine, -1.0, 1.0));
+  if (amplitude == 0.0) return {-1.0, 0.0};
+  const Dual cosine = 1.0 / amplitude * (brought - Dual{left.k, 0.0});
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cosine.value * cosine.value));
+  const double turn = std::atan2(left.b, left.a) + side * std::acos(std::clamp(cosine.value, -1.0, 1.0));
+  const double turn_rate = sine > 0.0 ? -side * cosine.slope / sine : 0.0;
   const Vector3 u = carried.at(turn) - g.axes[1].point;
-  const double along_second = g.axes[1].direction.dot(u);
-  const double second = meeting ? radius - std::abs(height * g.cosine - along_second) / g.sine
-                                : triangleMargin(g.offset, (u - along_second * g.axes[1].direction).norm(), radius);
-  return std::min((1.0 - std::abs(cosine)) * std::min(1.0, amplitude / (g.length * g.length)), second / g.length);
+  const Vector3 u_rate = turn_rate * (carried.at(turn + 0.5 * kPi) - carried.center);
+  const Dual along_second = {g.axes[1].direction.dot(u), g.axes[1].direction.dot(u_rate)};
+  const Dual second =
+      meeting ? radius - 1.0 / g.sine * abs(g.cosine * height - along_second)
+              : triangleMargin({g.offset, 0.0},
+                               norm(across(g.axes[1].direction, u), across(g.axes[1].direction, u_rate)), radius);
+  const double unit = std::min(1.0, amplitude / (g.length * g.length));
+  return min(unit * (Dual{1.0, 0.0} - abs(cosine)), 1.0 / g.length * second);
 }
 
 std::vector<double> ReachMargin::maxima(const Pose& target, double first, double last, int samples) const {
@@ -86,26 +119,22 @@ std::vector<double> ReachMargin::maxima(const Pose& target, double first, double
   const double step = (last - first) / samples;
   std::vector<double> values(static_cast<std::size_t>(samples));
   for (double side : {1.0, -1.0}) {
-    for (int i = 0; i < samples; ++i) values[static_cast<std::size_t>(i)] = at(target, first + i * step, side);
+    for (int i = 0; i < samples; ++i) values[static_cast<std::size_t>(i)] = at(target, first + i * step, side).value;
     for (int i = 0; i < samples; ++i) {
       const double here = values[static_cast<std::size_t>(i)];
       const double before = values[static_cast<std::size_t>((i + samples - 1) % samples)];
       const double after = values[static_cast<std::size_t>((i + 1) % samples)];
       // Where the neighbours are well within reach, slices have seen it.
       if (here < before || here < after || (before > 0.0 && after > 0.0)) continue;
-      constexpr double kGolden = 0.6180339887498949;
+      // By the slope: values tell a smooth top to the root of rounding only.
       double low = first + (i - 1) * step;
       double high = first + (i + 1) * step;
-      while (high - low > 1e-9 * (1.0 + std::abs(high))) {
-        const double x = high - kGolden * (high - low);
-        const double y = low + kGolden * (high - low);
-        if (at(target, x, side) >= at(target, y, side))
-          high = y;
-        else
-          low = x;
+      for (int k = 0; k < kBisections; ++k) {
+        const double middle = 0.5 * (low + high);
+        (at(target, middle, side).slope > 0.0 ? low : high) = middle;
       }
       const double best = 0.5 * (low + high);
-      if (at(target, best, side) >= kLeastMargin) found.push_back(best);
+      if (at(target, best, side).value >= kLeastMargin) found.push_back(best);
     }
   }
   return found;

@@ -20,15 +20,26 @@ class ReachMargin {
   /// Values of the parameter joint where the margin has a local maximum that is not negative.
   std::vector<double> maxima(const Pose& target, double first, double last, int samples) const;
 
+  /// A function's value, and its slope by the parameter joint.
+  struct Dual {
+    double value = 0.0;
+    double slope = 0.0;
+  };
+
  private:
-  Vector3 goalAt(const Pose& target, double value) const;
+  struct Goal {
+    Vector3 point;
+    Vector3 rate;  ///< By the parameter joint.
+  };
+
+  Goal goalAt(const Pose& target, double value) const;
   /// In units of the chain's length; `side` chooses the root of the third axis.
-  double at(const Pose& target, double value, double side) const;
+  Dual at(const Pose& target, double value, double side) const;
 
   PositionGeometry geometry_;
   Vector3 center_;
   Pose home_;
-  Axis parameter_;     ///< In the base frame where it is the first, in the tip's where it is the last.
+  Vector6 parameter_;  ///< Screw of that joint; in the base frame where it is the first, in the tip's where the last.
   bool first_ = true;  ///< The parameter joint is the first.
   bool wrist_ = true;  ///< The axes that meet are the last; else the first.
 };
