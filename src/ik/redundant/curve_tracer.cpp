@@ -8,7 +8,10 @@ namespace {
 
 constexpr double kFirstStep = 0.02;
 constexpr double kLongestStep = 0.5;
-constexpr double kShortestStep = 1e-7;    // Below it, branches that do not join cannot be told from a crossing.
+constexpr double kFineStep = 0.02;      // Where those reach from one curve to another.
+constexpr double kShortestStep = 1e-7;  // Below it, branches that do not join cannot be told from a crossing.
+constexpr double kBlur = 1e-14;         // Over the gain, what rounding leaves open of a place; steps are not shorter.
+constexpr double kLongestBlur = 1e-3;
 constexpr double kMostTurn = 0.25;        // [rad] of the tangent in one step.
 constexpr double kMostCorrection = 0.15;  // Of a step.
 constexpr double kLookAhead = 2.0;        // Steps that the gain must not fall to zero in, and rise again.
@@ -18,33 +21,43 @@ constexpr double kFarthest = 1000.0;      // [rad, lengths] An open curve ends t
 /// Where the next step is to begin: the node, walked in `way` of its oriented tangent.
 class Walk {
  public:
-  Walk(PoseCurve& pose, const SelfMotionNode& start, double way) : pose_(pose), start_(start), at_(start), way_(way) {
+  Walk(PoseCurve& pose, const SelfMotionNode& start, double way, double longest_step)
+      : pose_(pose), start_(start), at_(start), longest_(longest_step), way_(way) {
     at_.tangent *= way;
     at_.arc = 0.0;
     start_ = at_;
+    mark_ = at_;
   }
 
   /// True where it comes back to the start.
   bool run(std::vector<SelfMotionNode>& nodes, std::vector<Vector7>& crossings) {
     nodes.push_back(at_);
     while (nodes.size() < kMaxCurveNodes) {
-      const bool passed_start = step(crossings);
-      if (passed_start) {
+      const SelfMotionNode from = at_;
+      step(crossings);
+      if (passes(start_, from)) {
         nodes.push_back(closing(nodes.back()));
         return true;
       }
       nodes.push_back(at_);
-      if (isOver()) break;
+      // A curve comes round to its start. One that comes round to another place has been left for another curve;
+      // Brent's way to see that is a mark that is put down after twice as many steps each time.
+      if (isOver() || passes(mark_, from)) break;
+      if (nodes.size() == next_mark_) {
+        mark_ = at_;
+        next_mark_ *= 2;
+      }
     }
     return false;
   }
 
  private:
-  /// One step on; true where it passes the start.
-  bool step(std::vector<Vector7>& crossings) {
+  void step(std::vector<Vector7>& crossings) {
+    const double least = std::clamp(kBlur / at_.gain, kShortestStep, kLongestBlur);
     for (;;) {
       SelfMotionNode next;
-      const bool shortest = h_ <= kShortestStep;
+      h_ = std::max(h_, least);
+      const bool shortest = h_ <= least;
       const Vector7 ahead = at_.q + h_ * at_.tangent + 0.5 * h_ * h_ * bend_;
       const bool found = pose_.correct(ahead, (shortest ? 1.0 : kMostCorrection) * h_, next);
       double along = found ? way_ * pose_.dot(next.tangent, at_.tangent) : 0.0;
@@ -57,38 +70,38 @@ class Walk {
       // The gain falls to zero towards a crossing and rises behind it: a step must not reach so far.
       const double slope = std::max(slope_, std::abs(next.gain - at_.gain) / h_);
       if (found && !shortest && at_.gain + next.gain < kLookAhead * slope * h_) {
-        h_ = std::max(0.5 * h_, kShortestStep);
+        h_ *= 0.5;
         continue;
       }
       if (along < std::cos(kMostTurn)) {
         if (!shortest) {
-          h_ = std::max(0.5 * h_, kShortestStep);
+          h_ *= 0.5;
           continue;
         }
-        // Beside a crossing the null vector is rounding's: the curve goes straight on.
-        next.tangent = way_ * at_.tangent;
-        along = 1.0;
+        // Beside a crossing the null vector is rounding's: the curve goes on as the step went.
+        const Vector7 chord = next.q - at_.q;
+        next.tangent = way_ / pose_.norm(chord) * chord;
+        along = way_ * pose_.dot(next.tangent, at_.tangent);
       }
       return take(next, along);
     }
   }
 
-  bool take(SelfMotionNode& next, double along) {
+  void take(SelfMotionNode& next, double along) {
     const double turn = std::acos(std::min(1.0, along));
     next.tangent *= way_;
     next.arc = at_.arc + pose_.norm(next.q - at_.q) * (1.0 + turn * turn / 24.0);
-    const bool passes = passesStart(next);
     bend_ = (next.tangent - at_.tangent) / (next.arc - at_.arc);
     slope_ = std::abs(next.gain - at_.gain) / (next.arc - at_.arc);
     at_ = next;
     const double growth = turn > 0.0 ? std::clamp(0.7 * kMostTurn / turn, 0.5, 2.0) : 2.0;
-    h_ = std::clamp(growth * h_, kShortestStep, kLongestStep);
-    return passes;
+    h_ = std::min(growth * h_, longest_);
   }
 
   /// Straight over a singular point that no step comes near enough to.
-  bool jump(std::vector<Vector7>& crossings) {
-    for (double h : {3e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
+  void jump(std::vector<Vector7>& crossings) {
+    for (double h : {3e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+      if (h < h_) continue;
       SelfMotionNode next;
       if (!pose_.correct(at_.q + h * at_.tangent, 0.5 * h, next)) continue;
       const double along = pose_.dot(next.tangent, at_.tangent);
@@ -100,18 +113,18 @@ class Walk {
     }
     crossings.push_back(at_.q);
     ended_ = true;
-    return false;
   }
 
-  bool passesStart(const SelfMotionNode& next) const {
-    const double h = next.arc - at_.arc;
-    const Vector7 from = pose_.difference(at_.q, start_.q);
-    const double ahead = pose_.dot(from, at_.tangent);
-    if (at_.arc == 0.0 || pose_.norm(from) > 1.2 * h || ahead <= 0.0) return false;
-    const Vector7 to = pose_.difference(next.q, start_.q);
-    if (pose_.dot(to, next.tangent) > 0.0) return false;
-    const double off = (from - ahead * at_.tangent).norm();
-    return off <= 0.2 * h && pose_.dot(start_.tangent, at_.tangent) > 0.8;
+  /// Whether the last step went past a place, the way of the walk there.
+  bool passes(const SelfMotionNode& place, const SelfMotionNode& from) const {
+    const double h = at_.arc - from.arc;
+    const Vector7 before = pose_.difference(from.q, place.q);
+    const double ahead = pose_.dot(before, from.tangent);
+    if (from.arc == place.arc || pose_.norm(before) > 1.2 * h || ahead <= 0.0) return false;
+    const Vector7 behind = pose_.difference(at_.q, place.q);
+    if (pose_.dot(behind, at_.tangent) > 0.0) return false;
+    const double off = (before - ahead * from.tangent).norm();
+    return off <= 0.2 * h && pose_.dot(place.tangent, from.tangent) > 0.8;
   }
 
   SelfMotionNode closing(const SelfMotionNode& last) const {
@@ -136,6 +149,9 @@ class Walk {
   PoseCurve& pose_;
   SelfMotionNode start_;
   SelfMotionNode at_;
+  SelfMotionNode mark_;
+  std::size_t next_mark_ = 64;
+  double longest_;
   Vector7 bend_ = Vector7::Zero();
   double slope_ = 1.0;  ///< Of the gain along the last step; 1 is a usual arm's steepest.
   double h_ = kFirstStep;
@@ -215,11 +231,17 @@ void append(PoseCurve& pose, const SelfMotionNode& a, const SelfMotionNode& b, i
 bool traceCurve(PoseCurve& pose, const Vector7& start, SelfMotionCurve& curve) {
   SelfMotionNode node;
   if (!pose.correct(start, 0.1, node) || node.gain <= kSingularStart) return false;
-  curve = SelfMotionCurve();
-  curve.closed = Walk(pose, node, 1.0).run(curve.nodes, curve.crossings);
-  if (curve.closed) return true;
+  bool bounded = true;
+  for (int i = 0; i < kRedundantJoints; ++i) bounded = bounded && pose.isRevolute(i);
+  // A curve of turns alone comes round; where it does not, a step was too long.
+  for (double longest : {kLongestStep, kFineStep}) {
+    curve = SelfMotionCurve();
+    curve.closed = Walk(pose, node, 1.0, longest).run(curve.nodes, curve.crossings);
+    if (curve.closed) return true;
+    if (!bounded) break;
+  }
   std::vector<SelfMotionNode> behind;
-  Walk(pose, node, -1.0).run(behind, curve.crossings);
+  Walk(pose, node, -1.0, kLongestStep).run(behind, curve.crossings);
   std::reverse(behind.begin(), behind.end());
   const double length = behind.front().arc;
   for (SelfMotionNode& n : behind) {
