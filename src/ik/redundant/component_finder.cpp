@@ -18,6 +18,8 @@ constexpr double kSamePoint = 1e-6;      // [rad] A configuration this near to a
 constexpr double kRounding = 1e-13;      // Of residuals; over the gain, of solutions.
 constexpr double kCubicError = 2e-3;     // [rad] of the uncorrected curve between nodes, many times over.
 constexpr double kSliceReach = 1e-3;     // [rad] A slice's solution is this near to the curve at most.
+constexpr double kSameSolution = 4e-6;   // [rad] Solutions this near to each other have one answer.
+constexpr double kLeastForm = 1e-4;      // Of second derivatives over the chain's length: below it they are none.
 constexpr double kRegular = 1e-6;        // Gain of a node from which a curve can be followed.
 constexpr std::size_t kMostPoints = 16;  // Solutions without a curve that are told.
 constexpr std::size_t kMostCrossings = 32;
@@ -198,13 +200,24 @@ void ComponentFinder::addSheet(const RedundantSolution& member, bool parameter_m
     // One value of the parameter on a sheet that covers all values.
     return !parameter_moves && other.parameter_moves && (member.free & ~other.member.free) == 0U;
   });
-  if (!known) sheets_.push_back(sheet);
+  if (known) return;
+  if (!parameter_moves && !isAlone(sheet)) ++unexplained_;
+  sheets_.push_back(sheet);
 }
 
 /// A solution at which no curve can be followed: too near to a singularity.
 void ComponentFinder::addPoint(const RedundantSolution& solution) {
-  ++unexplained_;
   if (sheets_.size() < kMostPoints) addSheet(solution, false);
+}
+
+/// Whether nothing but the sheet itself solves the pose beside a member of it, to second order: across it the error has
+/// a definite form. A definite form beside a point leaves an ellipse, of a size that the gain tells.
+bool ComponentFinder::isAlone(const SelfMotionSheet& sheet) {
+  if (sheet.free.size() > 1) return true;
+  const PoseCurve::SecondOrder form = pose_.secondOrder(sheet.member.q);
+  if (sheet.free.size() == 1) return std::abs(form.values[1]) > kLeastForm;
+  return form.values[0] * form.values[1] > 0.0 && std::abs(form.values[0]) > kLeastForm &&
+         form.gain <= kSameSolution * std::abs(form.values[0]);
 }
 
 /// The value of the parameter at which a continuum exists, and a member there, to rounding: Newton's method of least

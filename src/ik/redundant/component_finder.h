@@ -27,7 +27,7 @@ class ComponentFinder {
 
   std::vector<SelfMotionCurve>& curves() { return curves_; }
   std::vector<SelfMotionSheet>& sheets() { return sheets_; }
-  /// Solutions of slices that lie on no curve nor sheet.
+  /// Solutions of slices beside which there may be others that no curve nor sheet tells.
   int unexplained() const { return unexplained_; }
 
  private:
@@ -40,6 +40,7 @@ class ComponentFinder {
   void branchOut(const Vector7& crossing);
   void addFree(const Free& free);
   void addSheet(const RedundantSolution& member, bool parameter_moves);
+  bool isAlone(const SelfMotionSheet& sheet);
   void addPoint(const RedundantSolution& solution);
   RedundantSolution refined(const RedundantSolution& member) const;
 

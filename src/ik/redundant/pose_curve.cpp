@@ -17,6 +17,8 @@ constexpr double kNoise = 1e-13;            // Of tangents, times the gain.
 constexpr double kLeastGain = 1e-9;         // Below it tangents are not asked for.
 constexpr double kGoodEnough = 1e-12;       // Where rounding of a large chain or a near singularity stops the steps.
 constexpr double kNegligiblePivot = 1e-13;  // Directions with smaller gain are left alone.
+constexpr double kSecondWeakest = 1e-4;     // Gain of the third weakest direction, below which more than two are weak.
+constexpr double kSecondOrderStep = 1e-4;   // [rad] Error 1e-8, noise 1e-12.
 
 /// Householder QR of J^T: null vector and least-norm steps of one factorisation.
 class Factor {
@@ -102,6 +104,28 @@ Eigen::Matrix<double, kRedundantJoints, 2> PoseCurve::weakestPlane(const Vector7
   geometricJacobian(chain_, q, J_);
   const Eigen::JacobiSVD<ScaledJacobian> svd(scaledJacobian(), Eigen::ComputeFullV);
   return unit_.asDiagonal() * svd.matrixV().rightCols<2>();
+}
+
+PoseCurve::SecondOrder PoseCurve::secondOrder(const Vector7& q) {
+  geometricJacobian(chain_, q, J_);
+  const Eigen::JacobiSVD<ScaledJacobian> svd(scaledJacobian(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  SecondOrder form;
+  form.gain = svd.singularValues()[5];
+  if (svd.singularValues()[4] < kSecondWeakest) return form;
+  const Eigen::Matrix<double, kRedundantJoints, 2> plane = svd.matrixV().rightCols<2>();
+  const Vector6 away = svd.matrixU().col(5);
+  Eigen::Matrix2d Q;
+  for (int k = 0; k < 2; ++k) {
+    const Vector7 step = kSecondOrderStep * unit_.cwiseProduct(plane.col(k));
+    geometricJacobian(chain_, q + step, J_);
+    const ScaledJacobian ahead = scaledJacobian();
+    geometricJacobian(chain_, q - step, J_);
+    Q.row(k) = away.transpose() * (ahead - scaledJacobian()) * plane / (2.0 * kSecondOrderStep);
+  }
+  const double mean = 0.5 * Q.trace();
+  const double spread = std::hypot(0.5 * (Q(0, 0) - Q(1, 1)), 0.5 * (Q(0, 1) + Q(1, 0)));
+  form.values = {mean - std::copysign(spread, mean), mean + std::copysign(spread, mean)};
+  return form;
 }
 
 bool PoseCurve::between(const SelfMotionNode& a, const SelfMotionNode& b, double share, SelfMotionNode& node) {

@@ -35,6 +35,14 @@ class PoseCurve {
   /// The two directions that move the tip least at a configuration, of norm 1 and across each other.
   Eigen::Matrix<double, kRedundantJoints, 2> weakestPlane(const Vector7& q);
 
+  /// What the pose's error does to second order along the two directions of weakestPlane(): x^T Q x over the direction
+  /// that the tip is moved least in. Zero where further directions are as weak.
+  struct SecondOrder {
+    double gain = 0.0;                 ///< Least singular value of the Jacobian.
+    Eigen::Vector2d values{0.0, 0.0};  ///< Eigenvalues of Q, the smaller size first.
+  };
+  SecondOrder secondOrder(const Vector7& q);
+
   double dot(const Vector7& a, const Vector7& b) const { return a.cwiseProduct(weight_).dot(b); }
   double norm(const Vector7& a) const { return std::sqrt(dot(a, a)); }
   /// b - a, revolute joints by the nearest full turn.
