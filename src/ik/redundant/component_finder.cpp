@@ -150,6 +150,20 @@ void ComponentFinder::branchOut(const Vector7& crossing) {
   });
   if (known || crossings_.size() >= kMostCrossings) return;
   crossings_.push_back(crossing);
+  const PoseCurve::SecondOrder form = pose_.secondOrder(crossing);
+  const double size = std::abs(form.values[0]);
+  if (form.is_known && size > kLeastForm) {
+    // Two curves cross where the form is zero.
+    if (form.values[0] * form.values[1] > 0.0) return;
+    const double share = std::sqrt(size / (size + std::abs(form.values[1])));
+    for (double sign : {1.0, -1.0}) {
+      const Vector7 way = std::sqrt(1.0 - share * share) * form.vectors.col(0) + sign * share * form.vectors.col(1);
+      for (double step : {kCrossingStep, -kCrossingStep}) addStart(crossing + step * way, kCrossingStep);
+    }
+    return;
+  }
+  // A surface within rounding has curves everywhere.
+  if (form.is_known && std::abs(form.values[1]) <= kLeastForm) return;
   const Eigen::Matrix<double, kRedundantJoints, 2> plane = pose_.weakestPlane(crossing);
   for (int k = 0; k < 2 * kCrossingWays; ++k) {
     const double angle = kPi * k / kCrossingWays;
@@ -247,9 +261,15 @@ void ComponentFinder::addFree(const Free& free) {
     wished[joint] = value;
     solver_->solveAt(target_, free.solution.q[solver_->parameterJoint()], wished, members);
     for (const RedundantSolution& member : members) {
+      if (!sameBranch(member, free.solution)) continue;
+      // Where the error has no second order either, a surface solves the pose within rounding, and curves to rounding
+      // are anywhere on it.
+      const PoseCurve::SecondOrder form = pose_.secondOrder(member.q);
+      const bool surface = form.is_known && std::abs(form.values[1]) <= kLeastForm;
+      const double reach = surface ? kPi : kSliceReach;
       SelfMotionNode node;
-      if (!sameBranch(member, free.solution) || !pose_.correct(member.q, kSliceReach, node)) continue;
-      if (node.gain > kRegular && addStart(node.q, kSliceReach)) return;
+      if (!pose_.correct(member.q, reach, node)) continue;
+      if ((surface || node.gain > kRegular) && addStart(node.q, reach)) return;
     }
   }
   addSheet(free.solution, false);

@@ -1,5 +1,6 @@
 #include "pose_curve.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
@@ -122,9 +123,14 @@ PoseCurve::SecondOrder PoseCurve::secondOrder(const Vector7& q) {
     geometricJacobian(chain_, q - step, J_);
     Q.row(k) = away.transpose() * (ahead - scaledJacobian()) * plane / (2.0 * kSecondOrderStep);
   }
-  const double mean = 0.5 * Q.trace();
-  const double spread = std::hypot(0.5 * (Q(0, 0) - Q(1, 1)), 0.5 * (Q(0, 1) + Q(1, 0)));
-  form.values = {mean - std::copysign(spread, mean), mean + std::copysign(spread, mean)};
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(0.5 * (Q + Q.transpose()));
+  const int first = std::abs(eigen.eigenvalues()[0]) <= std::abs(eigen.eigenvalues()[1]) ? 0 : 1;
+  for (int k = 0; k < 2; ++k) {
+    const int from = (first + k) % 2;
+    form.values[k] = eigen.eigenvalues()[from];
+    form.vectors.col(k) = unit_.asDiagonal() * (plane * eigen.eigenvectors().col(from));
+  }
+  form.is_known = true;
   return form;
 }
 

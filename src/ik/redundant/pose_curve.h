@@ -35,11 +35,13 @@ class PoseCurve {
   /// The two directions that move the tip least at a configuration, of norm 1 and across each other.
   Eigen::Matrix<double, kRedundantJoints, 2> weakestPlane(const Vector7& q);
 
-  /// What the pose's error does to second order along the two directions of weakestPlane(): x^T Q x over the direction
-  /// that the tip is moved least in. Zero where further directions are as weak.
+  /// What the pose's error does to second order along the two directions of weakestPlane(), in the direction that the
+  /// tip is moved least in: a quadratic form.
   struct SecondOrder {
-    double gain = 0.0;                 ///< Least singular value of the Jacobian.
-    Eigen::Vector2d values{0.0, 0.0};  ///< Eigenvalues of Q, the smaller size first.
+    bool is_known = false;                               ///< Not where a third direction is as weak.
+    double gain = 0.0;                                   ///< Least singular value of the Jacobian.
+    Eigen::Vector2d values{0.0, 0.0};                    ///< Of the form, the smaller size first.
+    Eigen::Matrix<double, kRedundantJoints, 2> vectors;  ///< Directions that have them, of norm 1.
   };
   SecondOrder secondOrder(const Vector7& q);
 
