@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "small_loop.h"
+
 namespace screwline {
 namespace {
 
@@ -231,6 +233,7 @@ void append(PoseCurve& pose, const SelfMotionNode& a, const SelfMotionNode& b, i
 bool traceCurve(PoseCurve& pose, const Vector7& start, SelfMotionCurve& curve) {
   SelfMotionNode node;
   if (!pose.correct(start, 0.1, node) || node.gain <= kSingularStart) return false;
+  if (traceSmallLoop(pose, node, curve)) return true;
   bool bounded = true;
   for (int i = 0; i < kRedundantJoints; ++i) bounded = bounded && pose.isRevolute(i);
   // A curve of turns alone comes round; where it does not, a step was too long.

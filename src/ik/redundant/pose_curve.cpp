@@ -12,14 +12,13 @@ namespace screwline {
 namespace {
 
 constexpr int kMaxSteps = 12;
-constexpr double kRounding = 4e-15;         // Residuals that steps would not lessen, in units of 1 and the length.
-constexpr double kLastStep = 1e-11;         // A Newton step that is shorter is the last one.
-constexpr double kNoise = 1e-13;            // Of tangents, times the gain.
-constexpr double kLeastGain = 1e-9;         // Below it tangents are not asked for.
-constexpr double kGoodEnough = 1e-12;       // Where rounding of a large chain or a near singularity stops the steps.
-constexpr double kNegligiblePivot = 1e-13;  // Directions with smaller gain are left alone.
-constexpr double kSecondWeakest = 1e-4;     // Gain of the third weakest direction, below which more than two are weak.
-constexpr double kSecondOrderStep = 1e-4;   // [rad] Error 1e-8, noise 1e-12.
+constexpr double kRounding = 4e-15;        // Residuals that steps would not lessen, in units of 1 and the length.
+constexpr double kLastStep = 1e-11;        // A Newton step that is shorter is the last one.
+constexpr double kNoise = 1e-13;           // Of tangents, times the gain.
+constexpr double kLeastGain = 1e-9;        // Below it tangents are not asked for.
+constexpr double kGoodEnough = 1e-12;      // Where rounding of a large chain or a near singularity stops the steps.
+constexpr double kSecondWeakest = 1e-4;    // Gain of the third weakest direction, below which more than two are weak.
+constexpr double kSecondOrderStep = 1e-4;  // [rad] Error 1e-8, noise 1e-12.
 
 /// Householder QR of J^T: null vector and least-norm steps of one factorisation.
 class Factor {
@@ -40,15 +39,15 @@ class Factor {
   double gain() const { return std::abs(qr_.matrixQR()(5, 5)); }
   const Vector7& tangent() const { return tangent_; }
 
-  /// J x = e, x of least norm.
-  Vector7 step(const Vector6& e) const {
+  /// J x = e, x of least norm; pivots below a share of the first are left out.
+  Vector7 step(const Vector6& e, double negligible) const {
     const auto& R = qr_.matrixQR();
     const Vector6 rhs = qr_.colsPermutation().transpose() * e;
     Vector7 y = Vector7::Zero();
     for (int i = 0; i < 6; ++i) {
       double sum = rhs[i];
       for (int k = 0; k < i; ++k) sum -= R(k, i) * y[k];
-      if (std::abs(R(i, i)) > kNegligiblePivot * std::abs(R(0, 0))) y[i] = sum / R(i, i);
+      if (std::abs(R(i, i)) > negligible * std::abs(R(0, 0))) y[i] = sum / R(i, i);
     }
     y.applyOnTheLeft(qr_.householderQ());
     return y;
@@ -67,7 +66,7 @@ PoseCurve::PoseCurve(const SerialChain& chain, const Pose& target, std::shared_p
   weight_ = unit_.cwiseProduct(unit_).cwiseInverse();
 }
 
-bool PoseCurve::correct(const Vector7& q, double reach, SelfMotionNode& node) {
+bool PoseCurve::correctAbove(double share, const Vector7& q, double reach, SelfMotionNode& node) {
   const double length = chain_.characteristicLength();
   node.q = q;
   double before = std::numeric_limits<double>::infinity();
@@ -80,13 +79,19 @@ bool PoseCurve::correct(const Vector7& q, double reach, SelfMotionNode& node) {
     node.noise = kNoise / std::max(node.gain, kLeastGain);
     const double size = error.norm();
     if (size <= kRounding || (size <= kGoodEnough && size > 0.25 * before)) return true;
-    node.q += factor.step(error).cwiseProduct(unit_);
+    node.q += factor.step(error, share).cwiseProduct(unit_);
     if (!(norm(node.q - q) <= reach)) return false;
     // What is left is the square of the step, and the tangent of the point before differs by the step.
     if (size <= kLastStep * node.gain) return true;
     before = size;
   }
   return before <= kGoodEnough;
+}
+
+double PoseCurve::errorAt(const Vector7& q) {
+  Vector6 error = poseDifference(target_, forwardKinematics(chain_, q));
+  error.head<3>() /= chain_.characteristicLength();
+  return error.norm();
 }
 
 PoseCurve::ScaledJacobian PoseCurve::scaledJacobian() const {
@@ -128,6 +133,7 @@ PoseCurve::SecondOrder PoseCurve::secondOrder(const Vector7& q) {
   for (int k = 0; k < 2; ++k) {
     const int from = (first + k) % 2;
     form.values[k] = eigen.eigenvalues()[from];
+    form.slopes[k] = form.gain * eigen.eigenvectors()(0, from);
     form.vectors.col(k) = unit_.asDiagonal() * (plane * eigen.eigenvectors().col(from));
   }
   form.is_known = true;

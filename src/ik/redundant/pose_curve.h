@@ -23,7 +23,15 @@ class PoseCurve {
   /// Newton steps of least norm until rounding is reached. False where that fails or leads further than `reach` away;
   /// `node` is then undefined. Its tangent is oriented by the Jacobian's minors: along the curve it does not turn back,
   /// on the other side of a crossing it does.
-  bool correct(const Vector7& q, double reach, SelfMotionNode& node);
+  bool correct(const Vector7& q, double reach, SelfMotionNode& node) {
+    return correctAbove(kNegligiblePivot, q, reach, node);
+  }
+  /// The same, directions with a smaller gain than a share of the largest left alone. What they leave of the error may
+  /// be as large as 1e-12.
+  bool correctAbove(double share, const Vector7& q, double reach, SelfMotionNode& node);
+
+  /// Norm of the pose's error, lengths over the chain's.
+  double errorAt(const Vector7& q);
 
   /// Point between two nodes at share 0..1 of the way: cubic by their tangents, then corrected; or by the arm angle.
   /// Its tangent runs the way of `a`'s.
@@ -40,6 +48,7 @@ class PoseCurve {
   struct SecondOrder {
     bool is_known = false;                               ///< Not where a third direction is as weak.
     double gain = 0.0;                                   ///< Least singular value of the Jacobian.
+    Eigen::Vector2d slopes{0.0, 0.0};                    ///< Of the error in that direction, along `vectors`.
     Eigen::Vector2d values{0.0, 0.0};                    ///< Of the form, the smaller size first.
     Eigen::Matrix<double, kRedundantJoints, 2> vectors;  ///< Directions that have them, of norm 1.
   };
@@ -52,6 +61,7 @@ class PoseCurve {
   bool isRevolute(int joint) const { return chain_.joint(joint).isRevolute(); }
 
  private:
+  static constexpr double kNegligiblePivot = 1e-13;
   using ScaledJacobian = Eigen::Matrix<double, 6, kRedundantJoints>;
   ScaledJacobian scaledJacobian() const;  ///< Of J_: lengths over the chain's.
 
