@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <optional>
 
-#include "small_loop.h"
+#include "local_conic.h"
 
 namespace screwline {
 namespace {
@@ -13,6 +15,8 @@ constexpr double kLongestStep = 0.5;
 constexpr double kFineStep = 0.02;      // Where those reach from one curve to another.
 constexpr double kShortestStep = 1e-7;  // Below it, branches that do not join cannot be told from a crossing.
 constexpr double kBlur = 1e-14;         // Over the gain, what rounding leaves open of a place; steps are not shorter.
+constexpr double kConicStep = 1e-5;     // Where steps are as short, the conic tells how the curve runs.
+constexpr double kConicReach = 1e-6;
 constexpr double kLongestBlur = 1e-3;
 constexpr double kMostTurn = 0.25;        // [rad] of the tangent in one step.
 constexpr double kMostCorrection = 0.15;  // Of a step.
@@ -55,6 +59,11 @@ class Walk {
 
  private:
   void step(std::vector<Vector7>& crossings) {
+    if (!passage_.empty() || (h_ < kConicStep && startPassage(crossings))) {
+      at_ = passage_.front();
+      passage_.pop_front();
+      return;
+    }
     const double least = std::clamp(kBlur / at_.gain, kShortestStep, kLongestBlur);
     for (;;) {
       SelfMotionNode next;
@@ -87,6 +96,18 @@ class Walk {
       }
       return take(next, along);
     }
+  }
+
+  /// Past a place where the curve may bend more sharply than steps can follow.
+  bool startPassage(std::vector<Vector7>& crossings) {
+    const std::optional<Passage> passage = passCrossing(pose_, at_);
+    SelfMotionNode behind;
+    if (!passage || !pose_.correct(passage->nodes.back().q, kConicReach, behind)) return false;
+    passage_.assign(passage->nodes.begin(), passage->nodes.end());
+    way_ = std::copysign(1.0, pose_.dot(behind.tangent, passage_.back().tangent));
+    bend_.setZero();
+    if (passage->crossing) crossings.push_back(*passage->crossing);
+    return true;
   }
 
   void take(SelfMotionNode& next, double along) {
@@ -152,6 +173,7 @@ class Walk {
   SelfMotionNode start_;
   SelfMotionNode at_;
   SelfMotionNode mark_;
+  std::deque<SelfMotionNode> passage_;  ///< Nodes ahead that are known.
   std::size_t next_mark_ = 64;
   double longest_;
   Vector7 bend_ = Vector7::Zero();

@@ -1,0 +1,135 @@
+#include "local_conic.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace screwline {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kLoopNodes = 32;
+constexpr double kMostGain = 1e-3;   // Of a node on a small loop.
+constexpr double kLeastForm = 1e-4;  // Second derivatives over the chain's length.
+constexpr double kMostSize = 0.01;   // [rad] Half a loop's longer axis, and how far from its centre a hyperbola holds.
+constexpr double kStrong = 1e-5;     // Of the largest gain: of the directions that carry the conic to its place.
+constexpr double kMostError = 0.1;   // Of the error in a loop's centre; terms of third order are worth it.
+constexpr double kRounding = 1e-14;  // Of errors.
+constexpr double kSteady = 1e-7;     // Gain from which Newton's method may decide across the curve.
+constexpr double kStep = 0.4;        // Of a hyperbola's parameter: at its vertex the curve turns by as much.
+constexpr double kMostPassage = 30.0;
+
+/// slopes . x + values . x^2 / 2 = 0 about its centre, x along `vectors` from a node.
+struct Conic {
+  explicit Conic(const PoseCurve::SecondOrder& form)
+      : values(form.values),
+        vectors(form.vectors),
+        center(-form.slopes.cwiseQuotient(form.values)),
+        square(form.values.dot(center.cwiseAbs2())) {}
+
+  Vector2d values;
+  Eigen::Matrix<double, kRedundantJoints, 2> vectors;
+  Vector2d center;
+  double square;  ///< values . y^2 along it, y from the centre.
+};
+
+std::optional<Conic> conicAt(PoseCurve& pose, const Vector7& q, bool ellipse) {
+  const PoseCurve::SecondOrder form = pose.secondOrder(q);
+  if (!form.is_known || std::abs(form.values[0]) < kLeastForm) return std::nullopt;
+  if ((form.values[0] * form.values[1] > 0.0) != ellipse) return std::nullopt;
+  return Conic(form);
+}
+
+/// Brings a place of the conic onto the curve; its tangent is `way` as well as the Jacobian tells it.
+bool settle(PoseCurve& pose, const Vector7& q, const Vector7& way, double most_error, SelfMotionNode& node) {
+  if (!pose.correctAbove(kStrong, q, kMostSize, node) || pose.errorAt(node.q) > most_error) return false;
+  const double along = pose.dot(node.tangent, way) / pose.norm(way);
+  if (std::abs(along) < 0.9) {
+    node.tangent = way / pose.norm(way);
+  } else if (along < 0.0) {
+    node.tangent = -node.tangent;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool traceSmallLoop(PoseCurve& pose, const SelfMotionNode& start, SelfMotionCurve& curve) {
+  if (start.gain > kMostGain) return false;
+  const std::optional<Conic> conic = conicAt(pose, start.q, true);
+  if (!conic) return false;
+  const Vector2d half = (conic->square * conic->values.cwiseInverse()).cwiseSqrt();
+  if (!(half[0] > 0.0 && half[1] > 0.0) || half[0] > kMostSize) return false;
+  const double most_error = std::max(kMostError * 0.5 * std::abs(conic->square), kRounding);
+  curve = SelfMotionCurve();
+  for (int i = 0; i < kLoopNodes; ++i) {
+    const double angle = kTwoPi * i / kLoopNodes;
+    const Vector2d place = conic->center + half.cwiseProduct(Vector2d(std::cos(angle), std::sin(angle)));
+    const Vector2d way = half.cwiseProduct(Vector2d(-std::sin(angle), std::cos(angle)));
+    SelfMotionNode node;
+    if (!settle(pose, start.q + conic->vectors * place, conic->vectors * way, most_error, node)) return false;
+    if (i > 0) node.arc = curve.nodes.back().arc + pose.norm(node.q - curve.nodes.back().q);
+    curve.nodes.push_back(node);
+  }
+  SelfMotionNode last = curve.nodes.front();
+  last.arc = curve.nodes.back().arc + pose.norm(last.q - curve.nodes.back().q);
+  curve.nodes.push_back(last);
+  curve.closed = true;
+  return true;
+}
+
+std::optional<Passage> passCrossing(PoseCurve& pose, const SelfMotionNode& at) {
+  const std::optional<Conic> conic = conicAt(pose, at.q, false);
+  if (!conic || conic->center.norm() > kMostSize) return std::nullopt;
+  // Asymptotes: s t = square, up to its sign.
+  const Vector2d root = conic->values.cwiseAbs().cwiseSqrt();
+  Eigen::Matrix2d to_asymptotes;
+  to_asymptotes << root[0], root[1], root[0], -root[1];
+  const Eigen::Matrix2d from_asymptotes = to_asymptotes.inverse();
+  Vector2d place = to_asymptotes * -conic->center;
+  const Vector2d way = to_asymptotes * Vector2d(pose.dot(at.tangent, conic->vectors.col(0)),
+                                                pose.dot(at.tangent, conic->vectors.col(1)));
+  const int along = std::abs(place[0]) > std::abs(place[1]) ? 0 : 1;
+  const int aside = 1 - along;
+  if (place[along] * way[along] >= 0.0) return std::nullopt;
+
+  Passage passage;
+  SelfMotionNode before = at;
+  const auto add = [&](const Vector2d& next, const Vector2d& rate) {
+    const Vector2d y = from_asymptotes * next;
+    SelfMotionNode node;
+    const Vector7 q = at.q + conic->vectors * (conic->center + y);
+    if (!settle(pose, q, conic->vectors * (from_asymptotes * rate), 1e-12, node)) return false;
+    if (conic->values.cwiseProduct(y).norm() > kSteady) {
+      const Vector7 tangent = node.tangent;
+      if (!pose.correct(node.q, 0.2 * y.norm(), node)) return false;
+      if (pose.dot(node.tangent, tangent) < 0.0) node.tangent = -node.tangent;
+    }
+    node.arc = before.arc + pose.norm(node.q - before.q);
+    passage.nodes.push_back(node);
+    before = node;
+    return true;
+  };
+  if (0.5 * std::abs(conic->square) <= kRounding) {
+    passage.crossing = at.q + conic->vectors * conic->center;
+    Vector2d behind = Vector2d::Zero();
+    behind[along] = -place[along];
+    if (!add(behind, behind)) return std::nullopt;
+    return passage;
+  }
+  const double end = std::log(std::abs(place[along] / place[aside]));
+  if (!(end < kMostPassage)) return std::nullopt;
+  const int steps = static_cast<int>(std::ceil(end / kStep));
+  for (int i = 1; i <= steps; ++i) {
+    const double factor = std::exp(end * i / steps);
+    Vector2d next = place;
+    next[along] /= factor;
+    next[aside] *= factor;
+    Vector2d rate = next;
+    rate[along] = -rate[along];
+    if (!add(next, rate)) return std::nullopt;
+  }
+  return passage;
+}
+
+}  // namespace screwline
