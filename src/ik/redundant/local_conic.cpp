@@ -10,7 +10,7 @@ using Eigen::Vector2d;
 
 constexpr int kLoopNodes = 32;
 constexpr double kMostGain = 1e-3;   // Of a node on a small loop.
-constexpr double kLeastForm = 1e-4;  // Second derivatives over the chain's length.
+constexpr double kLeastForm = 1e-7;  // Second derivatives over the chain's length.
 constexpr double kMostSize = 0.01;   // [rad] Half a loop's longer axis, and how far from its centre a hyperbola holds.
 constexpr double kStrong = 1e-5;     // Of the largest gain: of the directions that carry the conic to its place.
 constexpr double kMostError = 0.1;   // Of the error in a loop's centre; terms of third order are worth it.
@@ -93,13 +93,14 @@ std::optional<Passage> passCrossing(PoseCurve& pose, const SelfMotionNode& at) {
   const int aside = 1 - along;
   if (place[along] * way[along] >= 0.0) return std::nullopt;
 
+  const double most_error = std::max(kMostError * 0.5 * std::abs(conic->square), kRounding);
   Passage passage;
   SelfMotionNode before = at;
   const auto add = [&](const Vector2d& next, const Vector2d& rate) {
     const Vector2d y = from_asymptotes * next;
     SelfMotionNode node;
     const Vector7 q = at.q + conic->vectors * (conic->center + y);
-    if (!settle(pose, q, conic->vectors * (from_asymptotes * rate), 1e-12, node)) return false;
+    if (!settle(pose, q, conic->vectors * (from_asymptotes * rate), most_error, node)) return false;
     if (conic->values.cwiseProduct(y).norm() > kSteady) {
       const Vector7 tangent = node.tangent;
       if (!pose.correct(node.q, 0.2 * y.norm(), node)) return false;

@@ -18,7 +18,7 @@ constexpr double kNoise = 1e-13;           // Of tangents, times the gain.
 constexpr double kLeastGain = 1e-9;        // Below it tangents are not asked for.
 constexpr double kGoodEnough = 1e-12;      // Where rounding of a large chain or a near singularity stops the steps.
 constexpr double kSecondWeakest = 1e-4;    // Gain of the third weakest direction, below which more than two are weak.
-constexpr double kSecondOrderStep = 1e-4;  // [rad] Error 1e-8, noise 1e-12.
+constexpr double kSecondOrderStep = 1e-5;  // [rad] Error 1e-10, noise 1e-11.
 
 /// Householder QR of J^T: null vector and least-norm steps of one factorisation.
 class Factor {
