@@ -20,6 +20,7 @@ constexpr double kCubicError = 2e-3;     // [rad] of the uncorrected curve betwe
 constexpr double kSliceReach = 1e-3;     // [rad] A slice's solution is this near to the curve at most.
 constexpr double kSameSolution = 4e-6;   // [rad] Solutions this near to each other have one answer.
 constexpr double kLeastForm = 1e-4;      // Of second derivatives over the chain's length: below it they are none.
+constexpr double kBlurredGain = 1e-11;   // Below it curves are known to 1e-3 rad at best.
 constexpr double kRegular = 1e-6;        // Gain of a node from which a curve can be followed.
 constexpr std::size_t kMostPoints = 16;  // Solutions without a curve that are told.
 constexpr std::size_t kMostCrossings = 32;
@@ -256,23 +257,29 @@ void ComponentFinder::addFree(const Free& free) {
     return i;
   }();
   RedundantSolutions members;
-  for (double value : {0.3, 1.9, -1.2}) {
+  bool found = false;
+  bool blurred = false;
+  for (double value : {0.3, 1.9, -1.2, 2.6, -2.8, 1.1, -0.4, -1.9}) {
     Vector7 wished = Vector7::Zero();
     wished[joint] = value;
     solver_->solveAt(target_, free.solution.q[solver_->parameterJoint()], wished, members);
     for (const RedundantSolution& member : members) {
       if (!sameBranch(member, free.solution)) continue;
       // Where the error has no second order either, a surface solves the pose within rounding, and curves to rounding
-      // are anywhere on it.
+      // are anywhere on it: several starts are tried, and no number of them is enough where rounding blurs the curves.
       const PoseCurve::SecondOrder form = pose_.secondOrder(member.q);
       const bool surface = form.is_known && std::abs(form.values[1]) <= kLeastForm;
       const double reach = surface ? kPi : kSliceReach;
       SelfMotionNode node;
-      if (!pose_.correct(member.q, reach, node)) continue;
-      if ((surface || node.gain > kRegular) && addStart(node.q, reach)) return;
+      if (!pose_.correct(member.q, reach, node) || !(surface || node.gain > kRegular)) continue;
+      if (!addStart(node.q, reach)) continue;
+      if (!surface) return;
+      found = true;
+      blurred = blurred || node.gain < kBlurredGain;
     }
   }
-  addSheet(free.solution, false);
+  if (blurred) ++unexplained_;
+  if (!found) addSheet(free.solution, false);
 }
 
 void ComponentFinder::finishSheets() {
