@@ -19,7 +19,7 @@ namespace screwline {
 namespace {
 
 constexpr unsigned kSeed = 20261128;
-constexpr std::size_t kMostNodes = 8000;  // Of a curve: a bound of its time.
+constexpr std::size_t kMostNodes = 15000;  // Of a curve: a bound of its time.
 
 struct Arm {
   explicit Arm(const char* name)
