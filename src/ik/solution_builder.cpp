@@ -12,6 +12,7 @@ namespace screwline {
 namespace {
 
 constexpr double kGoodEnough = 1e-13;  // [m, rad] errors that Newton steps would not lessen.
+constexpr double kLeastGain = 1e-12;
 constexpr double kRounding = 2.2e-16;  // Of 1 and the chain's length: no residual is known better.
 constexpr double kLeastBand = 1e-9;    // Limits are decided no finer than this, and no coarser than kMostBand.
 constexpr double kMostBand = 1e-6;
@@ -94,11 +95,19 @@ double SolutionBuilder::timeLeft() const {
   return request_.timeout - std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
-IkAnswer SolutionBuilder::describe(const VectorX& q) const {
+IkAnswer SolutionBuilder::describe(const VectorX& q, int held) const {
   IkAnswer solution;
   solution.position = q;
   verify(solution);
   measure(solution, false);
+  if (held >= 0) {
+    MatrixX moving = task_.select(jacobian_, orientation_);
+    moving.col(held).setZero();
+    // The held joint's direction has a singular value of zero, where there are no more joints than rows.
+    const VectorX values = singularValues(moving);
+    const Eigen::Index rank = std::min<Eigen::Index>(task_.size(), chain_.size() - 1);
+    solution.joint_error = jointError(solution, std::max(values[rank - 1], kLeastGain));
+  }
   solution.within_limits = chooseTurns(chain_, q, q, true, false, kLeastBand).within_limits;
   return solution;
 }
@@ -124,14 +133,17 @@ double SolutionBuilder::verify(IkAnswer& solution) const {
 /// @pre jacobian_ is the solution's.
 TaskConditioning SolutionBuilder::measure(IkAnswer& solution, bool merged) const {
   TaskConditioning conditioning = conditioningOf(task_.select(jacobian_, orientation_), jacobianNoise(jacobian_));
-  const double rounding = kRounding * (1.0 + chain_.characteristicLength());  // A residual of zero is luck.
-  solution.joint_error =
-      std::hypot(solution.position_error, solution.orientation_error, rounding) / conditioning.smallest;
+  solution.joint_error = jointError(solution, conditioning.smallest);
   solution.manipulability = conditioning.manipulability;
   solution.singular =
       merged || solution.self_motion.rows() > std::max(0, chain_.size() - task_.size()) || !conditioning.full_rank;
   if (solution.self_motion.rows() == 0) solution.self_motion.resize(0, chain_.size());
   return conditioning;
+}
+
+double SolutionBuilder::jointError(const IkAnswer& solution, double smallest) const {
+  const double rounding = kRounding * (1.0 + chain_.characteristicLength());  // A residual of zero is luck.
+  return std::hypot(solution.position_error, solution.orientation_error, rounding) / smallest;
 }
 
 void describeRedundancy(const SerialChain& chain, const Task& task, IkAnswer& solution) {

@@ -25,8 +25,9 @@ class SolutionBuilder {
   /// solution to 1e-9.
   std::optional<IkAnswer> build(Candidate candidate) const;
 
-  /// The same numbers for a configuration that need not be a solution.
-  IkAnswer describe(const VectorX& q) const;
+  /// The same numbers for a configuration that need not be a solution. `held`: a joint whose value is given, which
+  /// therefore takes no part of an error; -1: none.
+  IkAnswer describe(const VectorX& q, int held = -1) const;
 
   /// Of the task Jacobian at the position of an answer that was built, where this is nearly singular; null elsewhere.
   /// Points into the builder, until it builds again.
@@ -37,6 +38,7 @@ class SolutionBuilder {
 
  private:
   TaskConditioning measure(IkAnswer& solution, bool merged) const;
+  double jointError(const IkAnswer& solution, double smallest) const;
   void place(IkAnswer& solution, bool near_seed) const;
   double verify(IkAnswer& solution) const;
 

@@ -7,6 +7,8 @@
 #include "screwline/exception.h"
 #include "screwline/ik/inverse_kinematics.h"
 #include "screwline/kinematics/forward.h"
+#include "screwline/kinematics/jacobian.h"
+#include "screwline/kinematics/singularity.h"
 
 namespace screwline {
 namespace {
@@ -278,6 +280,15 @@ TEST(IkRequest, SevenJointsAreSolvedByCurvesOrAtOneValue) {
   ASSERT_FALSE(points.solutions.empty()) << points.message;
   EXPECT_LE(points.solutions.front().distance, 1e-9);
   EXPECT_TRUE(points.complete);
+  // The joint that is given takes no part of an error.
+  for (const IkAnswer& answer : points.solutions) {
+    Matrix6X J;
+    geometricJacobian(chain, answer.position, J);
+    const double smallest = singularValues(J.rightCols(6))[5];
+    const double residual = std::hypot(answer.position_error, answer.orientation_error);
+    EXPECT_GE(answer.joint_error * smallest, 0.999 * residual);
+    EXPECT_LE(answer.joint_error * smallest, residual + 1e-15 * (1.0 + chain.characteristicLength()));
+  }
   request.redundancy = {0.1, 0.2};
   EXPECT_THROW(ik.solve(request), InputError);
 }
