@@ -8,15 +8,6 @@ namespace screwline {
 namespace {
 
 /// A frame on an axis: z along it, origin on it.
-Pose frameOn(const Axis& axis, const Vector3& x) {
-  Pose X;
-  X.R.col(0) = x;
-  X.R.col(1) = axis.direction.cross(x);
-  X.R.col(2) = axis.direction;
-  X.p = axis.point;
-  return X;
-}
-
 /// Unit vector perpendicular to both axes; any perpendicular where they are parallel. The cross product of two almost
 /// parallel axes is mostly rounding, even along them: taking off that part keeps the frames orthonormal.
 Vector3 commonNormal(const Vector3& first, const Vector3& second) {
@@ -42,7 +33,7 @@ ChainKernel compileChain(const std::vector<Axis>& axes, const Pose& home) {
     k.multiplier = axis.multiplier;
     k.source = axis.source;
     if (i == 0) {
-      kernel.base = frameOn(axis, anyPerpendicular(axis.direction));
+      kernel.base = {frameOn(axis.direction, anyPerpendicular(axis.direction)), axis.point};
       frame = kernel.base;
     } else {
       // The frame before is turned about its own axis until its x is the common normal: that turn was left open as its
@@ -50,13 +41,13 @@ ChainKernel compileChain(const std::vector<Axis>& axes, const Pose& home) {
       const Vector3 previous = axes[i - 1].direction;
       const Vector3 x = commonNormal(previous, axis.direction);
       kernel.axes.back().offset += std::atan2(x.dot(frame.R.col(1)), x.dot(frame.R.col(0)));
-      const Pose before = frameOn(axes[i - 1], x);
+      const Pose before = {frameOn(previous, x), axes[i - 1].point};
       k.p = before.R.transpose() * (axis.point - before.p);
       const Vector3 direction = before.R.transpose() * axis.direction;
       const double length = std::hypot(direction.y(), direction.z());
       k.sin_alpha = -direction.y() / length;
       k.cos_alpha = direction.z() / length;
-      frame = frameOn(axis, x);
+      frame = {frameOn(axis.direction, x), axis.point};
     }
     kernel.axes.push_back(k);
   }

@@ -22,6 +22,13 @@ double rotationAngle(const Matrix3& R);
 /// Some unit vector perpendicular to the unit vector `axis`; the same for the same input.
 Vector3 anyPerpendicular(const Vector3& axis);
 
+/// Right-handed frame with the unit vector `z`; x, of norm 1, perpendicular to it.
+inline Matrix3 frameOn(const Vector3& z, const Vector3& x) {
+  Matrix3 frame;
+  frame << x, z.cross(x), z;
+  return frame;
+}
+
 /// Nearest rotation matrix to M (polar decomposition): takes off rounding, not errors of substance.
 Matrix3 orthonormalized(const Matrix3& M);
 

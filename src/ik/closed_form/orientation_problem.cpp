@@ -10,9 +10,7 @@
 namespace screwline {
 namespace {
 
-/// Sine below which axis 3 counts as in line with axis 1: rounding,
-constexpr double kInLine = 1e-13;
-/// and what an arm near its own singularities may make of it.
+/// What an arm near its own singularities may make of kInLine.
 constexpr double kMostInLine = 1e-11;
 
 /// Cosine below which neighbours count as at right angles: what rounding leaves of it.

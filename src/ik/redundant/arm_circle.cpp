@@ -6,7 +6,6 @@
 
 #include "../closed_form/eliminant.h"
 #include "screwline/model/structure.h"
-#include "screwline/spatial/rotation.h"
 
 namespace screwline {
 namespace {
@@ -15,17 +14,8 @@ constexpr double kSamePoint = 1e-9;  // Of the chain's length.
 constexpr double kBeside = 1e-6;     // [rad] of the arm angle.
 constexpr double kRounding = 1e-14;  // [rad] of directions; over the sine between axes, of tangents.
 
-Matrix3 aboutZ(double angle) {
-  return rotationAbout(Vector3::UnitZ(), angle);
-}
-
-/// A right-handed frame with a direction as z.
-Matrix3 frameOn(const Vector3& z) {
-  Matrix3 frame;
-  frame.col(2) = z;
-  frame.col(0) = anyPerpendicular(z);
-  frame.col(1) = z.cross(frame.col(0));
-  return frame;
+Matrix3 someFrameOn(const Vector3& z) {
+  return frameOn(z, anyPerpendicular(z));
 }
 
 std::optional<ArmCircle::Group> groupAt(const SerialChain& chain, int first) {
@@ -89,15 +79,15 @@ ArmPose::ArmPose(std::shared_ptr<const ArmCircle> arm, const Pose& target) : arm
 void ArmPose::addElbow(double q, const Vector3& wrist, const Vector3& axis) {
   const ArmCircle::Group& shoulder = arm_->shoulder();
   const ArmCircle::Group& hand = arm_->wrist();
-  const Matrix3 line = frameOn(line_);
+  const Matrix3 line = someFrameOn(line_);
   Elbow elbow;
   elbow.q = q;
   elbow.turn = rotationAbout(axis, q);
-  const Matrix3 align = line * frameOn((wrist - arm_->shoulderCenter()).normalized()).transpose();
-  elbow.shoulder_before = shoulder.problem.nearFrame().transpose() * line;
-  elbow.shoulder_behind = line.transpose() * align * shoulder.problem.farFrame();
-  elbow.wrist_before = hand.problem.nearFrame().transpose() * elbow.turn.transpose() * align.transpose() * line;
-  elbow.wrist_behind = line.transpose() * rotation_ * hand.problem.farFrame();
+  const Matrix3 align = line * someFrameOn((wrist - arm_->shoulderCenter()).normalized()).transpose();
+  elbow.shoulder = {shoulder.problem.nearFrame().transpose() * line,
+                    line.transpose() * align * shoulder.problem.farFrame(), 1.0};
+  elbow.wrist = {hand.problem.nearFrame().transpose() * elbow.turn.transpose() * align.transpose() * line,
+                 line.transpose() * rotation_ * hand.problem.farFrame(), -1.0};
   recentre(elbow);
   elbows_.push_back(elbow);
 }
@@ -105,24 +95,23 @@ void ArmPose::addElbow(double q, const Vector3& wrist, const Vector3& axis) {
 void ArmPose::recentre(Elbow& elbow) {
   double centre = 0.0;
   double least = std::numeric_limits<double>::infinity();
-  for (bool shoulder : {true, false}) {
-    for (double angle : extremes(elbow, shoulder)) {
-      const double sine = outOfLine(elbow, angle, shoulder);
+  for (const Side* side : {&elbow.shoulder, &elbow.wrist}) {
+    for (double angle : extremes(*side)) {
+      const double sine = outOfLine(*side, angle);
       if (sine >= least) continue;
       least = sine;
       centre = angle;
     }
   }
-  elbow.shoulder_behind = aboutZ(centre) * elbow.shoulder_behind;
-  elbow.wrist_before = elbow.wrist_before * aboutZ(-centre);
+  for (Side* side : {&elbow.shoulder, &elbow.wrist})
+    side->behind = rotationAbout(Vector3::UnitZ(), side->sense * centre) * side->behind;
 }
 
 /// The third axis in the first one's frame: its cosine is a sinusoid of the arm angle.
-std::array<double, 2> ArmPose::extremes(const Elbow& elbow, bool shoulder) {
-  const Matrix3& before = shoulder ? elbow.shoulder_before : elbow.wrist_before;
-  const Matrix3& behind = shoulder ? elbow.shoulder_behind : elbow.wrist_behind;
-  const double turn = std::atan2(before(2, 1), before(2, 0)) - std::atan2(behind(1, 2), behind(0, 2));
-  const double angle = wrapAngle(shoulder ? turn : -turn);
+std::array<double, 2> ArmPose::extremes(const Side& side) {
+  const double turn =
+      std::atan2(side.before(2, 1), side.before(2, 0)) - std::atan2(side.behind(1, 2), side.behind(0, 2));
+  const double angle = wrapAngle(side.sense * turn);
   return {angle, wrapAngle(angle + kPi)};
 }
 
@@ -133,9 +122,8 @@ const ArmPose::Elbow& ArmPose::elbowOf(const SelfMotionNode& node) const {
 }
 
 double ArmPose::solve(const Elbow& elbow, double angle, const ArmSigns* signs, const Vector7& near, Vector7& q) const {
-  const Matrix3 turn = aboutZ(angle);
-  const Matrix3 shoulder = elbow.shoulder_before * turn * elbow.shoulder_behind;
-  const Matrix3 wrist = elbow.wrist_before * turn.transpose() * elbow.wrist_behind;
+  const Matrix3 shoulder = elbow.shoulder.at(angle);
+  const Matrix3 wrist = elbow.wrist.at(angle);
   TurnBatch batch;
   const OrientationTurns shoulder_turns = arm_->shoulder().problem.turnsInFrames(shoulder, 0.0, near[0], batch);
   const OrientationTurns wrist_turns = arm_->wrist().problem.turnsInFrames(wrist, 0.0, near[4], batch);
@@ -175,11 +163,8 @@ void ArmPose::at(const Elbow& elbow, double angle, const ArmSigns* signs, const 
   node.noise = kRounding / std::max(sine, kRounding);
 }
 
-double ArmPose::outOfLine(const Elbow& elbow, double angle, bool shoulder) {
-  const Matrix3 turn = aboutZ(angle);
-  const Matrix3 M = shoulder ? Matrix3(elbow.shoulder_before * turn * elbow.shoulder_behind)
-                             : Matrix3(elbow.wrist_before * turn.transpose() * elbow.wrist_behind);
-  return M.topRightCorner<2, 1>().norm();
+double ArmPose::outOfLine(const Side& side, double angle) {
+  return side.at(angle).topRightCorner<2, 1>().norm();
 }
 
 double ArmPose::angleOf(const Elbow& elbow, bool shoulder, const Vector7& q) const {
@@ -190,9 +175,9 @@ double ArmPose::angleOf(const Elbow& elbow, bool shoulder, const Vector7& q) con
   const Matrix3 turned = rotationAbout(group.axis[0], q[first]) * rotationAbout(group.axis[1], member[first + 1]) *
                          rotationAbout(group.axis[2], q[first + 2]);
   const Matrix3 M = group.problem.nearFrame().transpose() * turned * group.problem.farFrame();
-  const Matrix3 turn = shoulder ? Matrix3(elbow.shoulder_before.transpose() * M * elbow.shoulder_behind.transpose())
-                                : Matrix3(elbow.wrist_behind * M.transpose() * elbow.wrist_before);
-  return std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
+  const Side& side = shoulder ? elbow.shoulder : elbow.wrist;
+  const Matrix3 turn = side.before.transpose() * M * side.behind.transpose();
+  return side.sense * std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
 }
 
 /// Joint velocities at unit rate of the arm angle: the shoulder turns the arm about the line, the wrist turns back.

@@ -7,6 +7,7 @@
 
 #include "screwline/ik/closed_form/orientation_problem.h"
 #include "screwline/ik/redundant/self_motion.h"
+#include "screwline/spatial/rotation.h"
 
 namespace screwline {
 
@@ -51,13 +52,20 @@ class ArmPose {
  public:
   ArmPose(std::shared_ptr<const ArmCircle> arm, const Pose& target);
 
-  /// One value of the elbow; the rotations on both sides of the arm angle, in the groups' frames. The arm angle is zero
-  /// where axes come nearest to being in line: there joints may turn much faster than it.
+  /// What a group has to turn by, as a function of the arm angle, in the group's frames.
+  struct Side {
+    Matrix3 at(double angle) const { return before * rotationAbout(Vector3::UnitZ(), sense * angle) * behind; }
+
+    Matrix3 before, behind;
+    double sense = 1.0;  ///< -1 of the wrist, which turns back.
+  };
+
+  /// One value of the elbow. The arm angle is zero where axes come nearest to being in line: there joints may turn much
+  /// faster than it.
   struct Elbow {
     double q = 0.0;
-    Matrix3 shoulder_before, shoulder_behind;  ///< M(shoulder) = before Rz(angle) behind
-    Matrix3 wrist_before, wrist_behind;        ///< M(wrist) = before Rz(-angle) behind
-    Matrix3 turn;                              ///< Of the elbow.
+    Side shoulder, wrist;
+    Matrix3 turn;  ///< Of the elbow.
   };
 
   /// None where the pose is out of reach, or the points coincide.
@@ -78,10 +86,10 @@ class ArmPose {
 
   /// Arm angles at which the first and the third axis of a group are nearest to being in line, one way and the other;
   /// any, where they are as near at all of them.
-  static std::array<double, 2> extremes(const Elbow& elbow, bool shoulder);
+  static std::array<double, 2> extremes(const Side& side);
 
   /// Sine between the first and the third axis of a group.
-  static double outOfLine(const Elbow& elbow, double angle, bool shoulder);
+  static double outOfLine(const Side& side, double angle);
 
   /// The elbow whose value a node has.
   const Elbow& elbowOf(const SelfMotionNode& node) const;

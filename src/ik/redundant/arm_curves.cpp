@@ -8,7 +8,7 @@
 namespace screwline {
 namespace {
 
-constexpr double kInLine = 1e-13;      // Sine that rounding leaves between axes in line.
+constexpr double kInLine = OrientationProblem::kInLine;
 constexpr double kSharp = 1e-2;        // Sine below which joints turn much faster than the arm.
 constexpr double kAcrossEvent = 1e-3;  // [rad] of the arm angle on both sides of axes in line.
 constexpr int kPieces = 16;
@@ -36,14 +36,14 @@ class Circle {
       : pose_(pose), arm_(std::move(arm)), place_(elbow), set_(set) {}
 
   void add() {
-    for (bool shoulder : {true, false}) {
-      const Matrix3& before = shoulder ? elbow().shoulder_before : elbow().wrist_before;
-      const Matrix3& behind = shoulder ? elbow().shoulder_behind : elbow().wrist_behind;
-      const double tilt = std::hypot(before(2, 0), before(2, 1)) + std::hypot(behind(0, 2), behind(1, 2));
+    for (Line line : {kShoulder, kWrist}) {
+      const ArmPose::Side& side = sideOf(line);
+      const double tilt =
+          std::hypot(side.before(2, 0), side.before(2, 1)) + std::hypot(side.behind(0, 2), side.behind(1, 2));
       if (tilt <= kInLine) {
-        always_ |= shoulder ? kShoulder : kWrist;
+        always_ |= line;
       } else {
-        addEvents(shoulder);
+        addEvents(line);
       }
     }
     std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.angle < b.angle; });
@@ -59,11 +59,12 @@ class Circle {
  private:
   const ArmPose::Elbow& elbow() const { return arm_->elbows()[place_]; }
 
-  void addEvents(bool shoulder) {
-    for (double angle : ArmPose::extremes(elbow(), shoulder)) {
-      const double sine = ArmPose::outOfLine(elbow(), angle, shoulder);
-      const int bit = shoulder ? kShoulder : kWrist;
-      events_.push_back({angle, sine, sine <= kInLine ? bit : 0});
+  const ArmPose::Side& sideOf(Line line) const { return line == kShoulder ? elbow().shoulder : elbow().wrist; }
+
+  void addEvents(Line line) {
+    for (double angle : ArmPose::extremes(sideOf(line))) {
+      const double sine = ArmPose::outOfLine(sideOf(line), angle);
+      events_.push_back({angle, sine, sine <= kInLine ? line : 0});
     }
   }
 
@@ -85,8 +86,9 @@ class Circle {
 
   double outOfLine(double angle, int line) const {
     double sine = 0.0;
-    if ((line & kShoulder) != 0) sine = std::max(sine, ArmPose::outOfLine(elbow(), angle, true));
-    if ((line & kWrist) != 0) sine = std::max(sine, ArmPose::outOfLine(elbow(), angle, false));
+    for (Line one : {kShoulder, kWrist}) {
+      if ((line & one) != 0) sine = std::max(sine, ArmPose::outOfLine(sideOf(one), angle));
+    }
     return sine;
   }
 
@@ -260,7 +262,7 @@ class Circle {
     };
     VectorX q;
     sheet.member_at(VectorX::Zero(kRedundantJoints), q);
-    sheet.member.q = q;
+    sheet.member = q;
     set_.sheets.push_back(std::move(sheet));
   }
 

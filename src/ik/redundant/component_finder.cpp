@@ -50,6 +50,17 @@ bool sameBranch(const RedundantSolution& a, const RedundantSolution& b) {
   return a.free == b.free && a.sign == b.sign && a.rank == b.rank;
 }
 
+/// Free joints but the parameter joint, as bits.
+unsigned freeOf(const SelfMotionSheet& sheet) {
+  unsigned mask = 0;
+  for (std::size_t i = sheet.parameter_moves ? 1 : 0; i < sheet.free.size(); ++i) mask |= 1U << sheet.free[i];
+  return mask;
+}
+
+bool covers(const SelfMotionSheet& sheet, unsigned free) {
+  return (free & ~freeOf(sheet)) == 0U;
+}
+
 }  // namespace
 
 double distanceToCurve(PoseCurve& pose, const SelfMotionCurve& curve, const Vector7& q, double reach) {
@@ -199,10 +210,11 @@ void ComponentFinder::coverGrid(const SelfMotionCurve& curve) {
   }
 }
 
-void ComponentFinder::addSheet(const RedundantSolution& member, bool parameter_moves) {
+void ComponentFinder::addSheet(const RedundantSolution& told, bool parameter_moves) {
   const int parameter = solver_->parameterJoint();
+  const RedundantSolution member = parameter_moves ? told : refined(told);
   SelfMotionSheet sheet;
-  sheet.member = parameter_moves ? member : refined(member);
+  sheet.member = member.q;
   sheet.parameter_moves = parameter_moves;
   if (parameter_moves) sheet.free.push_back(parameter);
   for (int i = 0; i < kRedundantJoints; ++i) {
@@ -211,13 +223,35 @@ void ComponentFinder::addSheet(const RedundantSolution& member, bool parameter_m
   sheet.branch = solver_->branchName(member);
   const bool known = std::any_of(sheets_.begin(), sheets_.end(), [&](const SelfMotionSheet& other) {
     if (other.free == sheet.free && !parameter_moves)
-      return pose_.norm(pose_.difference(other.member.q, sheet.member.q)) <= kSamePoint;
+      return pose_.norm(pose_.difference(other.member, sheet.member)) <= kSamePoint;
     // One value of the parameter on a sheet that covers all values.
-    return !parameter_moves && other.parameter_moves && (member.free & ~other.member.free) == 0U;
+    return !parameter_moves && other.parameter_moves && covers(other, member.free);
   });
   if (known) return;
   if (!parameter_moves && !isAlone(sheet)) ++unexplained_;
+  sheet.member_at = membersOf(member, parameter_moves);
   sheets_.push_back(sheet);
+}
+
+/// By the closed form, at the parameter's wished value or the member's own.
+std::function<bool(const VectorX&, VectorX&)> ComponentFinder::membersOf(const RedundantSolution& member,
+                                                                         bool parameter_moves) {
+  if (held_ == nullptr) held_ = std::make_shared<const RedundantSolver>(*solver_);
+  return [solver = held_, target = target_, member, parameter_moves](const VectorX& wished, VectorX& q) {
+    const int parameter = solver->parameterJoint();
+    RedundantSolutions solutions;
+    solver->solveAt(target, parameter_moves ? wished[parameter] : member.q[parameter], wished, solutions);
+    double least = std::numeric_limits<double>::infinity();
+    for (const RedundantSolution& solution : solutions) {
+      if (!sameBranch(solution, member)) continue;
+      double off = 0.0;
+      for (int i = 0; i < kRedundantJoints; ++i) off += std::abs(std::sin(0.5 * (solution.q[i] - wished[i])));
+      if (off >= least) continue;
+      least = off;
+      q = solution.q;
+    }
+    return std::isfinite(least);
+  };
 }
 
 /// A solution at which no curve can be followed: too near to a singularity.
@@ -229,7 +263,7 @@ void ComponentFinder::addPoint(const RedundantSolution& solution) {
 /// a definite form. A definite form beside a point leaves an ellipse, of a size that the gain tells.
 bool ComponentFinder::isAlone(const SelfMotionSheet& sheet) {
   if (sheet.free.size() > 1) return true;
-  const PoseCurve::SecondOrder form = pose_.secondOrder(sheet.member.q);
+  const PoseCurve::SecondOrder form = pose_.secondOrder(sheet.member);
   if (sheet.free.size() == 1) return std::abs(form.values[1]) > kLeastForm;
   return form.values[0] * form.values[1] > 0.0 && std::abs(form.values[0]) > kLeastForm &&
          form.gain <= kSameSolution * std::abs(form.values[0]);
@@ -292,7 +326,7 @@ void ComponentFinder::finishSheets() {
     if (done[i]) continue;
     const unsigned mask = free_[i].solution.free;
     const bool held = std::any_of(sheets_.begin(), sheets_.end(), [&](const SelfMotionSheet& sheet) {
-      return sheet.parameter_moves && mask != sheet.member.free && (mask & ~sheet.member.free) == 0U;
+      return sheet.parameter_moves && mask != freeOf(sheet) && covers(sheet, mask);
     });
     if (held) continue;
     // Slices of the grid on the same branch are one sheet.

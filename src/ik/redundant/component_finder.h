@@ -39,13 +39,15 @@ class ComponentFinder {
   void coverGrid(const SelfMotionCurve& curve);
   void branchOut(const Vector7& crossing);
   void addFree(const Free& free);
-  void addSheet(const RedundantSolution& member, bool parameter_moves);
+  void addSheet(const RedundantSolution& told, bool parameter_moves);
+  std::function<bool(const VectorX&, VectorX&)> membersOf(const RedundantSolution& member, bool parameter_moves);
   bool isAlone(const SelfMotionSheet& sheet);
   void addPoint(const RedundantSolution& solution);
   RedundantSolution refined(const RedundantSolution& member) const;
 
   PoseCurve& pose_;
   const RedundantSolver* solver_;
+  std::shared_ptr<const RedundantSolver> held_;  ///< A copy, for what sheets need of it.
   Pose target_;
   int slices_ = 0;
   double first_ = 0.0;  ///< Value of the first slice; the others follow by step_.

@@ -85,31 +85,13 @@ SelfMotionAnswer answerOf(PoseCurve& pose, const SelfMotionCurve& curve, const S
   return answer;
 }
 
-/// Members of a sheet by the closed form, as continua inside of a plan are described.
-Candidate candidateOf(const RedundantSolver& solver, const Pose& target, const SelfMotionSheet& sheet) {
+/// As continua inside of a plan are described.
+Candidate candidateOf(const SelfMotionSheet& sheet) {
   Candidate candidate;
-  candidate.q = sheet.member.q;
+  candidate.q = sheet.member;
   candidate.branch = sheet.branch;
   candidate.free = sheet.free;
   candidate.member = sheet.member_at;
-  if (candidate.member) return candidate;
-  const int parameter = solver.parameterJoint();
-  const bool moves = std::find(sheet.free.begin(), sheet.free.end(), parameter) != sheet.free.end();
-  const RedundantSolution member = sheet.member;
-  candidate.member = [&solver, target, member, parameter, moves](const VectorX& preferred, VectorX& q) {
-    RedundantSolutions solutions;
-    solver.solveAt(target, moves ? preferred[parameter] : member.q[parameter], preferred, solutions);
-    double least = std::numeric_limits<double>::infinity();
-    for (const RedundantSolution& solution : solutions) {
-      if (solution.free != member.free || solution.sign != member.sign || solution.rank != member.rank) continue;
-      double off = 0.0;
-      for (int i = 0; i < kRedundantJoints; ++i) off += std::abs(std::sin(0.5 * (solution.q[i] - preferred[i])));
-      if (off >= least) continue;
-      least = off;
-      q = solution.q;
-    }
-    return std::isfinite(least);
-  };
   return candidate;
 }
 
@@ -166,8 +148,7 @@ SelfMotionAnswers SelfMotionSolver::answer(const SelfMotionQuestion& question) c
       result.answers.push_back(answerOf(pose, curve, interval, seed, parameterJoint(), question.ignore_limits));
   }
   for (const SelfMotionSheet& sheet : set.sheets) {
-    const SelfMotionAnswer answer = answerOf(
-        chain_, question.target, candidateOf(*closed_form_, question.target, sheet), seed, question.ignore_limits);
+    const SelfMotionAnswer answer = answerOf(chain_, question.target, candidateOf(sheet), seed, question.ignore_limits);
     if (answer.within_limits || question.ignore_limits) {
       result.answers.push_back(answer);
     } else {

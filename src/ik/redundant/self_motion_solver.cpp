@@ -167,7 +167,7 @@ void SelfMotionSolver::nameSheets(const Pose& target, std::vector<SelfMotionShee
   if (!closed_form_) return;
   RedundantSolutions solutions;
   for (SelfMotionSheet& sheet : sheets) {
-    const Vector7& q = sheet.member.q;
+    const Vector7& q = sheet.member;
     closed_form_->solveAt(target, q[parameterJoint()], q, solutions);
     double least = std::numeric_limits<double>::infinity();
     for (const RedundantSolution& solution : solutions) {

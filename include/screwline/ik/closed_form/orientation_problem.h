@@ -39,6 +39,9 @@ struct OrientationTurns {
 /// between neighbours and u the middle angle from where axes 1 and 3 come nearest. Solving allocates nothing.
 class OrientationProblem {
  public:
+  /// Sine below which axis 3 counts as in line with axis 1: rounding.
+  static constexpr double kInLine = 1e-13;
+
   /// Empty where neighbouring directions are parallel.
   static std::optional<OrientationProblem> compile(const std::array<Axis, 3>& axes);
 

@@ -51,13 +51,13 @@ struct SelfMotionCurve {
 /// A piece of the solution set that the Jacobian does not see as a curve: at each value of the parameter (or at one
 /// value alone, as with a straight arm) further joints are free.
 struct SelfMotionSheet {
-  RedundantSolution member;  ///< One configuration, and the branch.
+  Vector7 member;  ///< One configuration [rad or m].
   /// Joints whose values give the others': as many as dimensions, the parameter joint first where it moves. Empty: a
   /// point so near to a singularity that no curve can be followed.
   std::vector<int> free;
   bool parameter_moves = false;
   std::string branch;
-  /// The member with wished values of `free`, where another closed form than the parameter joint's tells it.
+  /// The member with wished values of `free`; false where it has none. Holds what it needs.
   std::function<bool(const VectorX& wished, VectorX& q)> member_at;
 };
 
