@@ -31,6 +31,10 @@ class ComponentFinder {
   int unexplained() const { return unexplained_; }
 
  private:
+  static constexpr double kSamePoint = 1e-6;   // [rad] A configuration this near to a curve is on it.
+  static constexpr double kSliceReach = 1e-3;  // [rad] A slice's solution is this near to the curve at most.
+  static constexpr double kLeastForm = 1e-4;   // Of second derivatives over the chain's length: below it they are none.
+
   struct Free {
     int slice = 0;
     RedundantSolution solution;

@@ -8,9 +8,9 @@ namespace screwline {
 constexpr std::size_t kMaxCurveNodes = 10000;
 
 /// Follows the curve from a configuration on it, both ways where it does not close, by predictor and corrector along
-/// the null space. Steps turn the tangent by 0.25 rad at most and never flip its orientation: two branches that come
-/// near each other are not exchanged down to a distance of about 1e-7 rad; below it they are taken to cross, and the
-/// curve goes straight on. An open curve ends where a prismatic joint leaves its limits or runs away, or at
+/// the null space. Steps turn the tangent by 0.25 rad at most and never flip its orientation; where they would be
+/// shorter than 1e-5 rad, the conic of second order tells whether curves cross or turn off. An open curve ends where a
+/// prismatic joint leaves its limits or runs away, where it comes round to another place than its start, or at
 /// kMaxCurveNodes. False where the start is no solution, or singular.
 bool traceCurve(PoseCurve& pose, const Vector7& start, SelfMotionCurve& curve);
 

@@ -68,8 +68,11 @@ class ReachMargin;
 /// axes share is placed by turns of which the first two meet or are parallel, the maxima of the margin of reach find
 /// such curves too (an arm almost straight); with a quartic, slides or a middle joint as parameter they do not, and
 /// `complete` holds to this resolution only. Between nodes joint values are monotone but for pairs of extrema less than
-/// 1e-5 rad of arc length apart, so a limit may be overrun unnoticed by 1e-9 rad. Branches nearer to each other than
-/// 1e-7 rad are taken to cross. Immutable; all functions allocate and may be called from many threads.
+/// 1e-5 rad of arc length apart, so a limit may be overrun unnoticed by 1e-9 rad. Where curves come near to each other,
+/// or are loops about a single configuration, they are conics to second order: whether they cross or turn off is
+/// decided by the conic, to an error of 1e-14. Where even that is rounding (a surface that solves the pose to 1e-11)
+/// curves on it are told that the arm can follow, and `complete` is false. Immutable; all functions allocate and may be
+/// called from many threads.
 class SelfMotionSolver {
  public:
   /// Empty where the chain has not seven joints, or mimic joints, or moves its tip in less than six dimensions: its
