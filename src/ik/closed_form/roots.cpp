@@ -30,10 +30,12 @@ double magnitude(const double* c, int degree, double x) {
   return value;
 }
 
-RealRoots solveQuadratic(const double* c) {
+/// `scale`: as solveBetween()'s.
+RealRoots solveQuadratic(const double* c, double scale) {
   RealRoots roots;
   const double half = 0.5 * c[1];
-  const double root = squareRootOrNone(half * half - c[2] * c[0], half * half + std::abs(c[2] * c[0]));
+  const double size = half * half + std::abs(c[2]) * std::max(std::abs(c[0]), scale);
+  const double root = squareRootOrNone(half * half - c[2] * c[0], size);
   if (root < 0.0) return roots;
   if (root == 0.0) {
     roots.add(-half / c[2], 0);
@@ -72,14 +74,15 @@ double bracketedRoot(const double* c, int degree, double low, double high, int s
 }
 
 /// Whether an extremum comes near to zero without passing it.
-bool almostTouches(const double* c, int degree, double x, double value) {
+bool almostTouches(const double* c, int degree, double x, double value, double size) {
   double curvature = 0.0;
   for (int i = degree; i >= 2; --i) curvature = curvature * x + i * (i - 1) * c[i];
-  return value * curvature > 0.0 && std::abs(value) <= kReachTolerance * magnitude(c, degree, x);
+  return value * curvature > 0.0 && std::abs(value) <= kReachTolerance * size;
 }
 
-/// RealRoots of a polynomial of degree 3 or 4 from its critical points.
-RealRoots solveBetween(const double* c, int degree, const RealRoots& critical) {
+/// RealRoots of a polynomial of degree 3 or 4 from its critical points. `scale`: of the terms that the coefficients
+/// were made of, which they do not show where those cancel.
+RealRoots solveBetween(const double* c, int degree, const RealRoots& critical, double scale) {
   double bound = 0.0;
   for (int i = 0; i < degree; ++i) bound = std::max(bound, std::abs(c[i] / c[degree]));
   bound += 1.0;  // Cauchy: all roots lie within.
@@ -90,12 +93,15 @@ RealRoots solveBetween(const double* c, int degree, const RealRoots& critical) {
     const bool last = i == critical.count;
     const double high = last ? bound : critical.roots[static_cast<std::size_t>(i)].value;
     int sign_high = signOf(c[degree]);
+    double value = 0.0;
+    double size = 0.0;
     if (!last) {
-      const double value = evaluate(c, degree, high);
-      sign_high = std::abs(value) <= kDoubleRootTolerance * magnitude(c, degree, high) ? 0 : signOf(value);
+      value = evaluate(c, degree, high);
+      size = std::max(magnitude(c, degree, high), scale);
+      sign_high = std::abs(value) <= kDoubleRootTolerance * size ? 0 : signOf(value);
     }
     if (sign_low * sign_high < 0) roots.add(bracketedRoot(c, degree, low, high, sign_low), sign_high);
-    const bool touches = !last && (sign_high == 0 || almostTouches(c, degree, high, evaluate(c, degree, high)));
+    const bool touches = !last && (sign_high == 0 || almostTouches(c, degree, high, value, size));
     if (touches && roots.count < 4) roots.add(high, 0);
     low = high;
     sign_low = sign_high;
@@ -136,10 +142,10 @@ RealRoots solvePolynomial(const double* c, int degree, double scale) {
     roots.add(-c[0] / c[1], signOf(c[1]));
     return roots;
   }
-  if (degree == 2) return solveQuadratic(c);
+  if (degree == 2) return solveQuadratic(c, scale);
   std::array<double, 4> derivative{};
   for (int i = 1; i <= degree; ++i) derivative[static_cast<std::size_t>(i - 1)] = i * c[i];
-  return solveBetween(c, degree, solvePolynomial(derivative.data(), degree - 1, 0.0));
+  return solveBetween(c, degree, solvePolynomial(derivative.data(), degree - 1, 0.0), scale);
 }
 
 RealRoots solveSecondHarmonic(double k, double a, double b, double c, double d, double scale) {
@@ -162,7 +168,8 @@ RealRoots solveSecondHarmonic(double k, double a, double b, double c, double d, 
   const double dy = d * twice.c - c * twice.s;
   // (1 + t^2)^2 times the function, with t = tan(y/2).
   const double quartic[5] = {k + ay + cy, 2.0 * by + 4.0 * dy, 2.0 * k - 6.0 * cy, 2.0 * by - 4.0 * dy, k - ay + cy};
-  RealRoots roots = solvePolynomial(quartic, 4, 0.0);
+  const double terms = std::abs(k) + std::abs(a) + std::abs(b) + std::abs(c) + std::abs(d);
+  RealRoots roots = solvePolynomial(quartic, 4, terms);
   for (int i = 0; i < roots.count; ++i) {
     RealRoot& root = roots.roots[static_cast<std::size_t>(i)];
     const double t = root.value;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "curve_tracer.h"
+#include "local_conic.h"
 
 namespace screwline {
 namespace {
@@ -14,10 +15,12 @@ constexpr int kFewSlices = 64;        // Of a slide, and where each one compiles
 constexpr double kShift = 0.0137;     // Slices avoid the values that people choose.
 constexpr double kRounding = 1e-13;   // Of residuals; over the gain, of solutions.
 constexpr double kCubicError = 2e-3;  // [rad] of the uncorrected curve between nodes, many times over.
-constexpr std::size_t kMostCrossings = 32;
-constexpr double kSameCrossing = 1e-3;  // [rad]
-constexpr int kCrossingWays = 12;       // Directions in the plane of a crossing's tangents, half a turn of them.
-constexpr double kCrossingStep = 0.02;  // [rad] from the crossing, where its branches are apart.
+constexpr std::size_t kMostPlaces = 32;
+constexpr std::size_t kMostNodes = 12000;  // Of all curves: bounds the time where rounding leaves their course open.
+constexpr double kSamePlace = 1e-3;        // [rad]
+constexpr int kCrossingWays = 12;          // Directions in the plane of a crossing's tangents, half a turn of them.
+constexpr double kCrossingStep = 0.02;     // [rad] from the crossing, where its branches are apart.
+constexpr double kReachAcross = 0.02;
 constexpr double kFarthestSlide = 4.0;  // [lengths] Where a slide has no limits.
 
 /// Share at which the cubic's coordinate has a value between those of its ends.
@@ -121,23 +124,37 @@ bool ComponentFinder::addStart(const Vector7& q, double reach) {
   for (const SelfMotionCurve& curve : curves_) {
     if (distanceToCurve(pose_, curve, node.q, 0.05) <= same) return true;
   }
+  if (nodes_ > kMostNodes) {
+    ++unexplained_;
+    return true;
+  }
   SelfMotionCurve curve;
   if (!traceCurve(pose_, node.q, curve)) return false;
+  nodes_ += curve.nodes.size();
   coverGrid(curve);
   const std::vector<Vector7> crossings = curve.crossings;
+  const std::vector<Vector7> across = placesAcross(pose_, curve);
   curves_.push_back(std::move(curve));
   for (const Vector7& crossing : crossings) branchOut(crossing);
+  for (const Vector7& place : across) {
+    if (isNewPlace(place, across_)) addStart(place, kReachAcross);
+  }
+  return true;
+}
+
+bool ComponentFinder::isNewPlace(const Vector7& place, std::vector<Vector7>& places) {
+  const bool known = std::any_of(places.begin(), places.end(), [&](const Vector7& other) {
+    return pose_.norm(pose_.difference(other, place)) <= kSamePlace;
+  });
+  if (known || places.size() >= kMostPlaces) return false;
+  places.push_back(place);
   return true;
 }
 
 /// Where curves cross, the Jacobian has one dimension less: tangents of all of them lie in the plane that it
 /// annihilates. A curve along which the parameter stands still is met by no slice, but crosses another.
 void ComponentFinder::branchOut(const Vector7& crossing) {
-  const bool known = std::any_of(crossings_.begin(), crossings_.end(), [&](const Vector7& other) {
-    return pose_.norm(pose_.difference(other, crossing)) <= kSameCrossing;
-  });
-  if (known || crossings_.size() >= kMostCrossings) return;
-  crossings_.push_back(crossing);
+  if (!isNewPlace(crossing, crossings_)) return;
   const PoseCurve::SecondOrder form = pose_.secondOrder(crossing);
   const double size = std::abs(form.values[0]);
   if (form.is_known && size > kLeastForm) {

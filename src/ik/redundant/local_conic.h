@@ -26,6 +26,10 @@ struct Passage {
 /// curve is no hyperbola, or third-order terms matter.
 std::optional<Passage> passCrossing(PoseCurve& pose, const SelfMotionNode& at);
 
+/// Places of other curves that come near to this one: where its gain is least, opposite on the hyperbola. To second
+/// order, not corrected.
+std::vector<Vector7> placesAcross(PoseCurve& pose, const SelfMotionCurve& curve);
+
 }  // namespace screwline
 
 #endif  // SCREWLINE_SRC_IK_REDUNDANT_LOCAL_CONIC_H

@@ -48,7 +48,8 @@ inline double squareRootOrNone(double radicand, double scale) {
 RealRoots solveSinusoid(double k, double a, double b, double scale);
 
 /// Real roots of c[0] + c[1] x + ... + c[degree] x^degree, degree <= 4, by bracketing between the roots of the
-/// derivative: no root is lost where two are close, touching roots are found once.
+/// derivative: no root is lost where two are close, touching roots are found once. `scale`: of the terms that the
+/// coefficients were made of; what they have lost by cancelling is rounding.
 RealRoots solvePolynomial(const double* c, int degree, double scale);
 
 /// k + a cos(x) + b sin(x) + c cos(2x) + d sin(2x) = 0; as solvePolynomial() in a half-angle tangent whose pole is put
