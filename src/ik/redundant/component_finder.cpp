@@ -15,13 +15,12 @@ constexpr int kFewSlices = 64;        // Of a slide, and where each one compiles
 constexpr double kShift = 0.0137;     // Slices avoid the values that people choose.
 constexpr double kRounding = 1e-13;   // Of residuals; over the gain, of solutions.
 constexpr double kCubicError = 2e-3;  // [rad] of the uncorrected curve between nodes, many times over.
-constexpr std::size_t kMostPlaces = 32;
+constexpr std::size_t kMostCrossings = 32;
 constexpr std::size_t kMostNodes = 12000;  // Of all curves: bounds the time where rounding leaves their course open.
-constexpr double kSamePlace = 1e-3;        // [rad]
+constexpr double kSameCrossing = 1e-3;     // [rad]
 constexpr int kCrossingWays = 12;          // Directions in the plane of a crossing's tangents, half a turn of them.
 constexpr double kCrossingStep = 0.02;     // [rad] from the crossing, where its branches are apart.
-constexpr double kReachAcross = 0.02;
-constexpr double kFarthestSlide = 4.0;  // [lengths] Where a slide has no limits.
+constexpr double kFarthestSlide = 4.0;     // [lengths] Where a slide has no limits.
 
 /// Share at which the cubic's coordinate has a value between those of its ends.
 double shareAt(const SelfMotionNode& a, const SelfMotionNode& b, int joint, double value) {
@@ -132,29 +131,21 @@ bool ComponentFinder::addStart(const Vector7& q, double reach) {
   if (!traceCurve(pose_, node.q, curve)) return false;
   nodes_ += curve.nodes.size();
   coverGrid(curve);
-  const std::vector<Vector7> crossings = curve.crossings;
-  const std::vector<Vector7> across = placesAcross(pose_, curve);
+  std::vector<Vector7> crossings = curve.crossings;
+  for (const Vector7& near : nearCrossings(pose_, curve)) crossings.push_back(near);
   curves_.push_back(std::move(curve));
   for (const Vector7& crossing : crossings) branchOut(crossing);
-  for (const Vector7& place : across) {
-    if (isNewPlace(place, across_)) addStart(place, kReachAcross);
-  }
   return true;
 }
 
-bool ComponentFinder::isNewPlace(const Vector7& place, std::vector<Vector7>& places) {
-  const bool known = std::any_of(places.begin(), places.end(), [&](const Vector7& other) {
-    return pose_.norm(pose_.difference(other, place)) <= kSamePlace;
-  });
-  if (known || places.size() >= kMostPlaces) return false;
-  places.push_back(place);
-  return true;
-}
-
-/// Where curves cross, the Jacobian has one dimension less: tangents of all of them lie in the plane that it
-/// annihilates. A curve along which the parameter stands still is met by no slice, but crosses another.
+/// Where curves cross, or almost do, the Jacobian has one dimension less: tangents of all of them lie in the plane that
+/// it annihilates. A curve along which the parameter stands still is met by no slice, but crosses another.
 void ComponentFinder::branchOut(const Vector7& crossing) {
-  if (!isNewPlace(crossing, crossings_)) return;
+  const bool known = std::any_of(crossings_.begin(), crossings_.end(), [&](const Vector7& other) {
+    return pose_.norm(pose_.difference(other, crossing)) <= kSameCrossing;
+  });
+  if (known || crossings_.size() >= kMostCrossings) return;
+  crossings_.push_back(crossing);
   const PoseCurve::SecondOrder form = pose_.secondOrder(crossing);
   const double size = std::abs(form.values[0]);
   if (form.is_known && size > kLeastForm) {

@@ -41,8 +41,6 @@ class ComponentFinder {
   };
 
   void coverGrid(const SelfMotionCurve& curve);
-  /// Whether a place is none of those, and there are not too many; then it is one of them.
-  bool isNewPlace(const Vector7& place, std::vector<Vector7>& places);
   void branchOut(const Vector7& crossing);
   void addFree(const Free& free);
   void addSheet(const RedundantSolution& told, bool parameter_moves);
@@ -62,7 +60,6 @@ class ComponentFinder {
   std::vector<unsigned> covered_;  ///< Per slice of the grid, bit k: its solution k lies on a curve.
   std::vector<SelfMotionCurve> curves_;
   std::vector<Vector7> crossings_;  ///< Those that were branched out from.
-  std::vector<Vector7> across_;     ///< Places on curves that come near to others.
   std::vector<Free> free_;
   std::vector<SelfMotionSheet> sheets_;
   std::size_t nodes_ = 0;  ///< Of the curves.

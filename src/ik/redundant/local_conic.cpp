@@ -19,7 +19,7 @@ constexpr double kSteady = 1e-7;     // Gain from which Newton's method may deci
 constexpr double kStep = 0.4;        // Of a hyperbola's parameter: at its vertex the curve turns by as much.
 constexpr double kMostPassage = 30.0;
 constexpr double kNear = 1e-2;            // Gain where another curve may be near,
-constexpr double kFarthestAcross = 0.05;  // and how far [rad] to its centre.
+constexpr double kFarthestAcross = 0.01;  // and how far [rad] to its centre.
 
 /// slopes . x + values . x^2 / 2 = 0 about its centre, x along `vectors` from a node.
 struct Conic {
@@ -135,8 +135,8 @@ std::optional<Passage> passCrossing(PoseCurve& pose, const SelfMotionNode& at) {
   return passage;
 }
 
-std::vector<Vector7> placesAcross(PoseCurve& pose, const SelfMotionCurve& curve) {
-  std::vector<Vector7> places;
+std::vector<Vector7> nearCrossings(PoseCurve& pose, const SelfMotionCurve& curve) {
+  std::vector<Vector7> centers;
   const std::size_t count = curve.nodes.size() - 1;
   for (std::size_t i = 0; i < count; ++i) {
     const SelfMotionNode& node = curve.nodes[i];
@@ -144,10 +144,9 @@ std::vector<Vector7> placesAcross(PoseCurve& pose, const SelfMotionCurve& curve)
     const double before = curve.nodes[i == 0 ? count - 1 : i - 1].gain;
     if (node.gain > kNear || node.gain > before || node.gain >= curve.nodes[i + 1].gain) continue;
     const std::optional<Conic> conic = conicAt(pose, node.q, false);
-    if (conic && conic->center.norm() <= kFarthestAcross)
-      places.push_back(node.q + 2.0 * conic->vectors * conic->center);
+    if (conic && conic->center.norm() <= kFarthestAcross) centers.push_back(node.q + conic->vectors * conic->center);
   }
-  return places;
+  return centers;
 }
 
 }  // namespace screwline

@@ -26,9 +26,8 @@ struct Passage {
 /// curve is no hyperbola, or third-order terms matter.
 std::optional<Passage> passCrossing(PoseCurve& pose, const SelfMotionNode& at);
 
-/// Places of other curves that come near to this one: where its gain is least, opposite on the hyperbola. To second
-/// order, not corrected.
-std::vector<Vector7> placesAcross(PoseCurve& pose, const SelfMotionCurve& curve);
+/// Where other curves come near to this one: centres of its hyperbolas, where its gain is least.
+std::vector<Vector7> nearCrossings(PoseCurve& pose, const SelfMotionCurve& curve);
 
 }  // namespace screwline
 
