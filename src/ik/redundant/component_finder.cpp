@@ -16,11 +16,11 @@ constexpr double kShift = 0.0137;     // Slices avoid the values that people cho
 constexpr double kRounding = 1e-13;   // Of residuals; over the gain, of solutions.
 constexpr double kCubicError = 2e-3;  // [rad] of the uncorrected curve between nodes, many times over.
 constexpr std::size_t kMostCrossings = 32;
-constexpr std::size_t kMostNodes = 12000;  // Of all curves: bounds the time where rounding leaves their course open.
-constexpr double kSameCrossing = 1e-3;     // [rad]
-constexpr int kCrossingWays = 12;          // Directions in the plane of a crossing's tangents, half a turn of them.
-constexpr double kCrossingStep = 0.02;     // [rad] from the crossing, where its branches are apart.
-constexpr double kFarthestSlide = 4.0;     // [lengths] Where a slide has no limits.
+constexpr std::size_t kMostNodes = 5000;  // Of all curves: bounds the time where rounding leaves their course open.
+constexpr double kSameCrossing = 1e-3;    // [rad]
+constexpr int kCrossingWays = 12;         // Directions in the plane of a crossing's tangents, half a turn of them.
+constexpr double kCrossingStep = 0.02;    // [rad] from the crossing, where its branches are apart.
+constexpr double kFarthestSlide = 4.0;    // [lengths] Where a slide has no limits.
 
 /// Share at which the cubic's coordinate has a value between those of its ends.
 double shareAt(const SelfMotionNode& a, const SelfMotionNode& b, int joint, double value) {

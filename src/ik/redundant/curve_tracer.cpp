@@ -15,7 +15,9 @@ constexpr double kLongestStep = 0.5;
 constexpr double kFineStep = 0.02;      // Where those reach from one curve to another.
 constexpr double kShortestStep = 1e-7;  // Below it, branches that do not join cannot be told from a crossing.
 constexpr double kBlur = 1e-14;         // Over the gain, what rounding leaves open of a place; steps are not shorter.
-constexpr double kConicStep = 1e-5;     // Where steps are as short, the conic tells how the curve runs.
+constexpr double kBlurredGain = 3e-8;   // Of a curve told twice within rounding: its orientation changes at random.
+constexpr double kConicStep = 1e-5;     // Where steps or the gain are as small, the conic tells how the curve runs.
+constexpr double kConicGain = 1e-6;
 constexpr double kConicReach = 1e-6;
 constexpr double kLongestBlur = 1e-3;
 constexpr double kMostTurn = 0.25;        // [rad] of the tangent in one step.
@@ -59,7 +61,7 @@ class Walk {
 
  private:
   void step(std::vector<Vector7>& crossings) {
-    if (!passage_.empty() || (h_ < kConicStep && startPassage(crossings))) {
+    if (!passage_.empty() || ((h_ < kConicStep || at_.gain < kConicGain) && startPassage(crossings))) {
       at_ = passage_.front();
       passage_.pop_front();
       return;
@@ -73,6 +75,11 @@ class Walk {
       const bool found = pose_.correct(ahead, (shortest ? 1.0 : kMostCorrection) * h_, next);
       double along = found ? way_ * pose_.dot(next.tangent, at_.tangent) : 0.0;
       if (shortest && (!found || std::abs(along) < 0.5)) return jump(crossings);
+      const bool blurred = found && std::max(at_.gain, next.gain) < kBlurredGain;
+      if (blurred && along < 0.0) {
+        way_ = -way_;
+        along = -along;
+      }
       if (shortest && along < 0.0) {
         way_ = -way_;
         along = -along;
@@ -80,7 +87,7 @@ class Walk {
       }
       // The gain falls to zero towards a crossing and rises behind it: a step must not reach so far.
       const double slope = std::max(slope_, std::abs(next.gain - at_.gain) / h_);
-      if (found && !shortest && at_.gain + next.gain < kLookAhead * slope * h_) {
+      if (found && !shortest && !blurred && at_.gain + next.gain < kLookAhead * slope * h_) {
         h_ *= 0.5;
         continue;
       }

@@ -5,7 +5,7 @@
 
 namespace screwline {
 
-constexpr std::size_t kMaxCurveNodes = 10000;
+constexpr std::size_t kMaxCurveNodes = 5000;
 
 /// Follows the curve from a configuration on it, both ways where it does not close, by predictor and corrector along
 /// the null space. Steps turn the tangent by 0.25 rad at most and never flip its orientation; where they would be

@@ -10,7 +10,7 @@ using Eigen::Vector2d;
 
 constexpr int kLoopNodes = 32;
 constexpr double kMostGain = 1e-3;   // Of a node on a small loop.
-constexpr double kLeastForm = 1e-7;  // Second derivatives over the chain's length.
+constexpr double kLeastForm = 2e-9;  // Second derivatives over the chain's length: twenty times their rounding.
 constexpr double kMostSize = 0.01;   // [rad] Half a loop's longer axis, and how far from its centre a hyperbola holds.
 constexpr double kStrong = 1e-5;     // Of the largest gain: of the directions that carry the conic to its place.
 constexpr double kMostError = 0.1;   // Of the error in a loop's centre; terms of third order are worth it.
