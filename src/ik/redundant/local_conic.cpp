@@ -18,6 +18,7 @@ constexpr double kRounding = 1e-14;  // Of errors.
 constexpr double kSteady = 1e-7;     // Gain from which Newton's method may decide across the curve.
 constexpr double kStep = 0.4;        // Of a hyperbola's parameter: at its vertex the curve turns by as much.
 constexpr double kMostPassage = 30.0;
+constexpr double kMostCorrection = 0.2;   // Of the distance from the centre.
 constexpr double kNear = 1e-2;            // Gain where another curve may be near,
 constexpr double kFarthestAcross = 0.01;  // and how far [rad] to its centre.
 
@@ -28,6 +29,9 @@ struct Conic {
         vectors(form.vectors),
         center(-form.slopes.cwiseQuotient(form.values)),
         square(form.values.dot(center.cwiseAbs2())) {}
+
+  /// Of a place that terms of third order leave where the conic has it.
+  double mostError() const { return std::max(kMostError * 0.5 * std::abs(square), kRounding); }
 
   Vector2d values;
   Eigen::Matrix<double, kRedundantJoints, 2> vectors;
@@ -54,6 +58,48 @@ bool settle(PoseCurve& pose, const Vector7& q, const Vector7& way, double most_e
   return true;
 }
 
+/// A hyperbola in the coordinates of its asymptotes, in which s t is constant, and the nodes on the way along it.
+class Hyperbola {
+ public:
+  Hyperbola(PoseCurve& pose, const SelfMotionNode& at, const Conic& conic)
+      : pose_(pose), start_(at), conic_(conic), before_(at) {
+    const Vector2d root = conic.values.cwiseAbs().cwiseSqrt();
+    to_asymptotes_ << root[0], root[1], root[0], -root[1];
+    from_asymptotes_ = to_asymptotes_.inverse();
+  }
+
+  Vector2d place() const { return to_asymptotes_ * -conic_.center; }
+  Vector2d way() const {
+    const auto along = [&](int k) { return pose_.dot(start_.tangent, conic_.vectors.col(k)); };
+    return to_asymptotes_ * Vector2d(along(0), along(1));
+  }
+
+  /// A node at a place further on, where the coordinates change at a rate.
+  bool add(const Vector2d& place, const Vector2d& rate, std::vector<SelfMotionNode>& nodes) {
+    const Vector2d y = from_asymptotes_ * place;
+    SelfMotionNode node;
+    const Vector7 q = start_.q + conic_.vectors * (conic_.center + y);
+    if (!settle(pose_, q, conic_.vectors * (from_asymptotes_ * rate), conic_.mostError(), node)) return false;
+    if (conic_.values.cwiseProduct(y).norm() > kSteady) {
+      const Vector7 tangent = node.tangent;
+      if (!pose_.correct(node.q, kMostCorrection * y.norm(), node)) return false;
+      if (pose_.dot(node.tangent, tangent) < 0.0) node.tangent = -node.tangent;
+    }
+    node.arc = before_.arc + pose_.norm(node.q - before_.q);
+    nodes.push_back(node);
+    before_ = node;
+    return true;
+  }
+
+ private:
+  PoseCurve& pose_;
+  const SelfMotionNode& start_;
+  const Conic& conic_;
+  SelfMotionNode before_;
+  Eigen::Matrix2d to_asymptotes_;
+  Eigen::Matrix2d from_asymptotes_;
+};
+
 }  // namespace
 
 bool traceSmallLoop(PoseCurve& pose, const SelfMotionNode& start, SelfMotionCurve& curve) {
@@ -62,14 +108,13 @@ bool traceSmallLoop(PoseCurve& pose, const SelfMotionNode& start, SelfMotionCurv
   if (!conic) return false;
   const Vector2d half = (conic->square * conic->values.cwiseInverse()).cwiseSqrt();
   if (!(half[0] > 0.0 && half[1] > 0.0) || half[0] > kMostSize) return false;
-  const double most_error = std::max(kMostError * 0.5 * std::abs(conic->square), kRounding);
   curve = SelfMotionCurve();
   for (int i = 0; i < kLoopNodes; ++i) {
     const double angle = kTwoPi * i / kLoopNodes;
     const Vector2d place = conic->center + half.cwiseProduct(Vector2d(std::cos(angle), std::sin(angle)));
     const Vector2d way = half.cwiseProduct(Vector2d(-std::sin(angle), std::cos(angle)));
     SelfMotionNode node;
-    if (!settle(pose, start.q + conic->vectors * place, conic->vectors * way, most_error, node)) return false;
+    if (!settle(pose, start.q + conic->vectors * place, conic->vectors * way, conic->mostError(), node)) return false;
     if (i > 0) node.arc = curve.nodes.back().arc + pose.norm(node.q - curve.nodes.back().q);
     curve.nodes.push_back(node);
   }
@@ -83,41 +128,17 @@ bool traceSmallLoop(PoseCurve& pose, const SelfMotionNode& start, SelfMotionCurv
 std::optional<Passage> passCrossing(PoseCurve& pose, const SelfMotionNode& at) {
   const std::optional<Conic> conic = conicAt(pose, at.q, false);
   if (!conic || conic->center.norm() > kMostSize) return std::nullopt;
-  // Asymptotes: s t = square, up to its sign.
-  const Vector2d root = conic->values.cwiseAbs().cwiseSqrt();
-  Eigen::Matrix2d to_asymptotes;
-  to_asymptotes << root[0], root[1], root[0], -root[1];
-  const Eigen::Matrix2d from_asymptotes = to_asymptotes.inverse();
-  Vector2d place = to_asymptotes * -conic->center;
-  const Vector2d way = to_asymptotes * Vector2d(pose.dot(at.tangent, conic->vectors.col(0)),
-                                                pose.dot(at.tangent, conic->vectors.col(1)));
+  Hyperbola hyperbola(pose, at, *conic);
+  const Vector2d place = hyperbola.place();
   const int along = std::abs(place[0]) > std::abs(place[1]) ? 0 : 1;
   const int aside = 1 - along;
-  if (place[along] * way[along] >= 0.0) return std::nullopt;
-
-  const double most_error = std::max(kMostError * 0.5 * std::abs(conic->square), kRounding);
+  if (place[along] * hyperbola.way()[along] >= 0.0) return std::nullopt;
   Passage passage;
-  SelfMotionNode before = at;
-  const auto add = [&](const Vector2d& next, const Vector2d& rate) {
-    const Vector2d y = from_asymptotes * next;
-    SelfMotionNode node;
-    const Vector7 q = at.q + conic->vectors * (conic->center + y);
-    if (!settle(pose, q, conic->vectors * (from_asymptotes * rate), most_error, node)) return false;
-    if (conic->values.cwiseProduct(y).norm() > kSteady) {
-      const Vector7 tangent = node.tangent;
-      if (!pose.correct(node.q, 0.2 * y.norm(), node)) return false;
-      if (pose.dot(node.tangent, tangent) < 0.0) node.tangent = -node.tangent;
-    }
-    node.arc = before.arc + pose.norm(node.q - before.q);
-    passage.nodes.push_back(node);
-    before = node;
-    return true;
-  };
   if (0.5 * std::abs(conic->square) <= kRounding) {
     passage.crossing = at.q + conic->vectors * conic->center;
     Vector2d behind = Vector2d::Zero();
     behind[along] = -place[along];
-    if (!add(behind, behind)) return std::nullopt;
+    if (!hyperbola.add(behind, behind, passage.nodes)) return std::nullopt;
     return passage;
   }
   const double end = std::log(std::abs(place[along] / place[aside]));
@@ -130,7 +151,7 @@ std::optional<Passage> passCrossing(PoseCurve& pose, const SelfMotionNode& at) {
     next[aside] *= factor;
     Vector2d rate = next;
     rate[along] = -rate[along];
-    if (!add(next, rate)) return std::nullopt;
+    if (!hyperbola.add(next, rate, passage.nodes)) return std::nullopt;
   }
   return passage;
 }
