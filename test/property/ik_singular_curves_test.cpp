@@ -8,6 +8,7 @@
 #include <random>
 
 #include "ik_gate.h"
+#include "redundant_arms.h"
 #include "screwline/ik/redundant/self_motion_solver.h"
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/spatial/screw.h"
@@ -84,6 +85,30 @@ TEST_P(SingularCurves, NothingIsLostAndCurvesComeRound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, SingularCurves, testing::Values("panda", "gen3_7dof"));
+
+/// Also where the wrist turns at one value of a rail alone, near the end of its reach.
+TEST(SingularCurvesOfRandomArms, NothingIsLost) {
+  const unsigned seed = test::wished("SCREWLINE_SEED", kSeed);
+  for (int kind : {0, 1, 3}) {
+    test::RedundantArmMaker maker(seed);
+    for (int k = 0; k < 4; ++k) {
+      const SerialChain chain = maker.makeArm(kind, false);
+      const InverseKinematics ik(chain, Task());
+      test::SingularPoses poses(chain, seed + static_cast<unsigned>(k));
+      for (const test::SingularKind& one : test::singularKindsOf(chain, Task())) {
+        for (double offset : {0.0, 1e-12, 1e-9, 1e-6, 1e-3}) {
+          const std::optional<VectorX> q = poses.make(one, offset);
+          if (!q) continue;
+          const test::IkGate gate(ik, *q, true);
+          const IkResult result = ik.solve(gate.request());
+          EXPECT_TRUE(gate.isKnown(*q, result, test::placeTolerance(chain, Task(), *q)))
+              << "seed " << seed << ", arm " << kind << "/" << k << ", " << one.name << " + " << offset << ": "
+              << result.message << "\n  q = " << q->transpose();
+        }
+      }
+    }
+  }
+}
 
 /// 1e-4 rad long, 1e-6 wide, about a configuration that would be the only one. Newton's method from anywhere beside it
 /// ends on it.

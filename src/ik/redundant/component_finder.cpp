@@ -11,7 +11,7 @@ namespace screwline {
 namespace {
 
 constexpr int kSlices = 256;
-constexpr int kFewSlices = 64;        // Of a slide, and where each one compiles a closed form.
+constexpr int kFewSlices = 64;        // Where each one compiles a closed form.
 constexpr double kShift = 0.0137;     // Slices avoid the values that people choose.
 constexpr double kRounding = 1e-13;   // Of residuals; over the gain, of solutions.
 constexpr double kCubicError = 2e-3;  // [rad] of the uncorrected curve between nodes, many times over.
@@ -37,6 +37,33 @@ double shareAt(const SelfMotionNode& a, const SelfMotionNode& b, int joint, doub
     ((coordinate(middle) < value) == (a.q[joint] < b.q[joint]) ? low : high) = middle;
   }
   return 0.5 * (low + high);
+}
+
+using Range = std::pair<double, double>;
+
+/// Values of a slide at an end of the chain between which the six others can reach the target, if they are turns: the
+/// point of the axis next to it (or of the first axis, where the slide is the last) stays within the sum of the lengths
+/// between the axes. Elsewhere a range that is wide enough for usual arms.
+Range rangeOfSlide(const SerialChain& chain, int joint, const Pose& target) {
+  const double far = kFarthestSlide * chain.characteristicLength() + target.p.norm();
+  const bool first = joint == 0;
+  if (!first && joint != kRedundantJoints - 1) return {-far, far};
+  const auto axis = [&](int i) { return chain.axes()[static_cast<std::size_t>(first ? i + 1 : i)]; };
+  double reach = 0.0;
+  for (int i = 0; i + 1 < kRedundantJoints - 1; ++i) reach += (axis(i + 1).point - axis(i).point).norm();
+  for (int i = 0; i + 1 < kRedundantJoints; ++i) {
+    if (axis(i).prismatic) return {-far, far};
+  }
+  // Where the slide has to bring one point for another to be met.
+  const Vector3 tip = chain.home().p;
+  const Vector3 last = axis(kRedundantJoints - 2).point;
+  reach += (tip - last).norm();
+  const Vector3& slide = chain.axes()[static_cast<std::size_t>(joint)].direction;
+  const Vector3 direction = first ? slide : Vector3(target.R * (chain.home().R.transpose() * slide));
+  const Vector3 gap = target.p - axis(0).point;
+  const double middle = gap.dot(direction);
+  const double half = std::sqrt(std::max(0.0, reach * reach - (gap - middle * direction).squaredNorm()));
+  return {middle - half, middle + half};
 }
 
 }  // namespace
@@ -67,16 +94,16 @@ ComponentFinder::ComponentFinder(PoseCurve& pose, const RedundantSolver* solver,
     : pose_(pose), solver_(solver), target_(target) {
   if (solver == nullptr) return;
   const int joint = solver->parameterJoint();
-  slices_ = solver->compiledOnce() && pose.isRevolute(joint) ? kSlices : kFewSlices;
+  slices_ = solver->compiledOnce() ? kSlices : kFewSlices;
   if (pose.isRevolute(joint)) {
     step_ = kTwoPi / slices_;
     first_ = -kPi + kShift;
     return;
   }
   const JointLimits& limits = pose.chain().joint(joint).limits;
-  const double far = kFarthestSlide * pose.chain().characteristicLength() + target.p.norm();
-  first_ = std::max(limits.lower, -far);
-  const double last = std::max(first_, std::min(limits.upper, far));
+  const Range range = rangeOfSlide(pose.chain(), joint, target);
+  first_ = std::max(limits.lower, range.first);
+  const double last = std::max(first_, std::min(limits.upper, range.second));
   step_ = std::max((last - first_) / slices_, 1e-9);
   first_ += 0.5 * step_;
 }

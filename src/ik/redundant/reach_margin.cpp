@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "../closed_form/eliminant.h"
 #include "screwline/model/structure.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kLeastMargin = -1e-9;  // A maximum that rounding may have put below zero.
 constexpr int kBisections = 60;
+constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 using Dual = ReachMargin::Dual;
 
@@ -118,17 +120,18 @@ std::vector<double> ReachMargin::maxima(const Pose& target, double first, double
   std::vector<double> found;
   const double step = (last - first) / samples;
   std::vector<double> values(static_cast<std::size_t>(samples));
+  const bool turns = !parameter_.tail<3>().isZero(0.0);  // The last value is next to the first one.
   for (double side : {1.0, -1.0}) {
     for (int i = 0; i < samples; ++i) values[static_cast<std::size_t>(i)] = at(target, first + i * step, side).value;
     for (int i = 0; i < samples; ++i) {
       const double here = values[static_cast<std::size_t>(i)];
-      const double before = values[static_cast<std::size_t>((i + samples - 1) % samples)];
-      const double after = values[static_cast<std::size_t>((i + 1) % samples)];
+      const double before = turns || i > 0 ? values[static_cast<std::size_t>((i + samples - 1) % samples)] : kNone;
+      const double after = turns || i + 1 < samples ? values[static_cast<std::size_t>((i + 1) % samples)] : kNone;
       // Where the neighbours are well within reach, slices have seen it.
       if (here < before || here < after || (before > 0.0 && after > 0.0)) continue;
       // By the slope: values tell a smooth top to the root of rounding only.
-      double low = first + (i - 1) * step;
-      double high = first + (i + 1) * step;
+      double low = first + (turns || i > 0 ? i - 1 : i) * step;
+      double high = first + (turns || i + 1 < samples ? i + 1 : i) * step;
       for (int k = 0; k < kBisections; ++k) {
         const double middle = 0.5 * (low + high);
         (at(target, middle, side).slope > 0.0 ? low : high) = middle;
