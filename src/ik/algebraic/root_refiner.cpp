@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <Eigen/SVD>
 
 #include "screwline/kinematics/kernel_sweep.h"
 #include "screwline/spatial/rotation.h"
 #include "screwline/spatial/small_svd.h"
+#include "screwline/spatial/weak_directions.h"
 #include "singular_matrix.h"
 
 namespace screwline {
@@ -17,7 +17,10 @@ namespace {
 constexpr int kMaxSteps = 60;
 constexpr double kAccepted = 1e-11;      ///< Error of a solution.
 constexpr double kExact = 2e-15;         ///< Error that is rounding.
+constexpr double kNearlyExact = 1e-13;   ///< Error that a step of any kind takes to rounding.
 constexpr double kLongestStep = 0.5;     ///< [rad], [lengths] of Newton's method.
+constexpr double kShortStep = 1e-8;      ///< [rad], [lengths] If it gains nothing, what is left is rounding.
+constexpr double kLinear = 0.05;         ///< Of the error: Newton's method leaves less, but where solutions meet.
 constexpr double kSame = 1e-6;           ///< [rad], [m] or [lengths]
 constexpr double kMaybeSame = 1e-3;      ///< Closer than this, the middle decides.
 constexpr double kNearSingular = 1e-3;   ///< Pivot ratio below which a mate is looked for.
@@ -25,6 +28,7 @@ constexpr double kFarthestMate = 0.5;    ///< [rad], [lengths]
 constexpr double kRegular = 1e-3;        ///< Least over largest singular value above which a solution is not double.
 constexpr double kSingular = 1e-6;       ///< Singular value below which a continuum is looked for.
 constexpr double kContinuumStep = 1e-2;  ///< [rad], [lengths]
+constexpr double kBent = 1e-3;           ///< Second derivative of the residual where there is no continuum.
 
 Vector3 smallRotationVector(const Matrix3& R) {
   const Vector3 twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
@@ -34,7 +38,11 @@ Vector3 smallRotationVector(const Matrix3& R) {
 }  // namespace
 
 RootRefiner::RootRefiner(const SerialChain& chain, double length, const Pose& target, AlgebraicSolutions& solutions)
-    : chain_(chain), length_(length), target_(target), solutions_(solutions) {}
+    : chain_(chain), length_(length), target_(target), solutions_(solutions) {
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    if (chain_.kernel().axes[static_cast<std::size_t>(i)].prismatic) unit_[i] = length_;
+  }
+}
 
 void RootRefiner::evaluate(const Vector6& q, Point& point) const {
   Eigen::Matrix<double, 3, 6> z;
@@ -59,41 +67,79 @@ void RootRefiner::evaluate(const Vector6& q, Point& point) const {
   point.error = point.residual.norm();
 }
 
+/// @param q the point's.
+RootRefiner::Fold RootRefiner::foldAt(const Vector6& q, const Point& point) const {
+  constexpr double kProbe = 1e-4;
+  const WeakDirections weak = weakDirectionsOf(SmallMatrix(point.J), point.J.norm());
+  Fold fold;
+  fold.u = weak.U.col(1);
+  fold.n = weak.V.col(1);
+  fold.sigma = weak.sigma[1];
+  fold.is_only_one = weak.sigma[0] > kRegular * weak.largest;
+  Point probe;
+  evaluate(q + (kProbe * fold.n).cwiseProduct(unit_), probe);
+  fold.bend = (probe.J - point.J) * fold.n / kProbe;
+  fold.kappa = fold.u.dot(fold.bend);
+  return fold;
+}
+
+/// To the nearer root of the parabola (where it has none, to its vertex), and to what the other directions ask for.
+bool RootRefiner::stepAcross(const Point& point, const Fold& fold, Vector6& step) {
+  const double r = fold.u.dot(point.residual);
+  const double discriminant = fold.sigma * fold.sigma + 2.0 * fold.kappa * r;
+  const double sum = fold.sigma + std::sqrt(std::max(0.0, discriminant));
+  const double t = discriminant > 0.0 ? 2.0 * r / sum : -fold.sigma / fold.kappa;
+  const Matrix6 regular = point.J + fold.u * fold.n.transpose();
+  const Vector6 others = point.residual - (0.5 * t * t) * fold.bend;
+  if (!solveLinear(regular, others - fold.u.dot(others) * fold.u, step)) return false;
+  step += t * fold.n;
+  return step.norm() <= kLongestStep;
+}
+
+/// Newton's method; where its steps are long or gain little, as where two solutions are about to meet, with the second
+/// derivative in that direction, and at last by damped steps.
 bool RootRefiner::refine(Vector6& q, Point& best) const {
-  Vector6 scale = Vector6::Ones();
-  for (Eigen::Index i = 0; i < 6; ++i) {
-    if (chain_.kernel().axes[static_cast<std::size_t>(i)].prismatic) scale[i] = length_;
-  }
   evaluate(q, best);
   Point point;
   double damping = 0.0;
+  bool is_slow = false;
   int gained_nothing = 0;
   for (int k = 0; k < kMaxSteps && best.error > kExact; ++k) {
     Vector6 step;
-    const bool solved = damping == 0.0 && solveLinear(best.J, best.residual, step);
-    if (!solved || !(step.norm() <= kLongestStep)) {
-      damping = std::max(damping, 1e-2 * best.error * best.error + 1e-30);
+    const bool is_damped = damping > 0.0;
+    if (!is_damped) {
+      const bool exists = is_slow ? stepAcross(best, foldAt(q, best), step)
+                                  : solveLinear(best.J, best.residual, step) && step.norm() <= kLongestStep;
+      if (!exists) {
+        if (is_slow) damping = 1e-2 * best.error * best.error + 1e-30;
+        is_slow = true;
+        continue;
+      }
+    } else {
       const Matrix6 normal = best.J.transpose() * best.J + damping * Matrix6::Identity();
       step = normal.ldlt().solve(best.J.transpose() * best.residual);
       if (!(step.norm() <= kLongestStep)) step *= kLongestStep / step.norm();
     }
     if (!step.allFinite()) return false;
-    const Vector6 next = q + step.cwiseProduct(scale);
+    const Vector6 next = q + step.cwiseProduct(unit_);
     evaluate(next, point);
-    const bool better = point.error < best.error;
-    if (better && point.error < 0.9 * best.error) {
-      gained_nothing = 0;
-      damping = damping > 1e-20 ? 0.1 * damping : 0.0;
-    } else {
-      if (best.error < kAccepted && ++gained_nothing > 2) break;
-      damping = std::max(10.0 * damping, 1e-6 * best.error);
-      if (damping > 1e6) break;
-    }
-    if (better) {
+    const double before = best.error;
+    if (point.error < before) {
       q = next;
       best = point;
     }
-    if (step.norm() < 1e-16) break;
+    const double length = step.norm();
+    if (length < 1e-16) break;
+    if (best.error < 0.9 * before) {
+      gained_nothing = 0;
+      damping = damping > 1e-20 ? 0.1 * damping : 0.0;
+      is_slow = best.error > std::max(kLinear * before, kNearlyExact);
+      continue;
+    }
+    if (best.error < kAccepted && ((!is_damped && length < kShortStep) || ++gained_nothing > 2)) break;
+    if (is_slow || is_damped) damping = std::max({10.0 * damping, 1e-6 * best.error, 1e-30});
+    is_slow = true;
+    if (damping > 1e6) break;
   }
   return best.error <= kAccepted;
 }
@@ -102,7 +148,11 @@ Vector6 RootRefiner::difference(const Vector6& to, const Vector6& from) const {
   Vector6 d = to - from;
   for (Eigen::Index i = 0; i < 6; ++i) {
     const AxisKernel& axis = chain_.kernel().axes[static_cast<std::size_t>(i)];
-    d[i] = axis.prismatic ? d[i] / length_ : std::remainder(d[i], kTwoPi / axis.multiplier);
+    if (axis.prismatic) {
+      d[i] /= length_;
+    } else if (!(std::abs(d[i] * axis.multiplier) <= kPi)) {
+      d[i] = std::remainder(d[i], kTwoPi / axis.multiplier);
+    }
   }
   return d;
 }
@@ -160,40 +210,25 @@ int RootRefiner::add(Vector6 q) {
   return place;
 }
 
-/// Along the direction n that J maps to almost nothing, sigma u, the residual is sigma t + kappa t^2 / 2 along u: it
-/// vanishes at zero and once more.
+/// The residual along the fold vanishes at zero and once more.
 void RootRefiner::addMate(const Vector6& q, const Point& point) {
   if (nullVectorsOf(point.J).pivot_ratio > kNearSingular) return;
-  const Eigen::JacobiSVD<Matrix6> svd(point.J, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vector6 u = svd.matrixU().col(5);
-  Vector6 n = svd.matrixV().col(5);
-  for (Eigen::Index i = 0; i < 6; ++i) {
-    if (chain_.kernel().axes[static_cast<std::size_t>(i)].prismatic) n[i] *= length_;
-  }
-  constexpr double kProbe = 1e-4;
-  Point probe;
-  evaluate(q + kProbe * n, probe);
-  const double ahead = -u.dot(probe.residual);
-  evaluate(q - kProbe * n, probe);
-  const double behind = -u.dot(probe.residual);
-  const double sigma = (ahead - behind) / (2.0 * kProbe);
-  const double kappa = (ahead + behind) / (kProbe * kProbe);
-  const double t = -2.0 * sigma / kappa;
+  const Fold fold = foldAt(q, point);
+  const double t = -2.0 * fold.sigma / fold.kappa;
   if (!(std::abs(t) < kFarthestMate)) return;
-  Vector6 mate = q + t * n;
+  Vector6 mate = q + (t * fold.n).cwiseProduct(unit_);
   Point at_mate;
   if (refine(mate, at_mate)) insert(mate);
 }
 
 bool RootRefiner::continues(const Vector6& q, const Vector6& direction) const {
   for (const double side : {kContinuumStep, -kContinuumStep}) {
-    Vector6 moved = q + side * direction;
+    Vector6 moved = q + (side * direction).cwiseProduct(unit_);
     Point point;
     if (!refine(moved, point)) return false;
     const double distance = difference(moved, q).norm();
     if (!(distance > 0.5 * kContinuumStep && distance < 2.0 * kContinuumStep)) return false;
-    const Eigen::JacobiSVD<Matrix6> svd(point.J);
-    if (svd.singularValues()[5] > kSingular) return false;
+    if (weakDirectionsOf(SmallMatrix(point.J), point.J.norm()).sigma[1] > kSingular) return false;
   }
   return true;
 }
@@ -204,13 +239,11 @@ void RootRefiner::findContinua() {
     Point point;
     evaluate(q, point);
     if (nullVectorsOf(point.J).pivot_ratio > 10.0 * kSingular) continue;
-    const Eigen::JacobiSVD<Matrix6> svd(point.J, Eigen::ComputeFullV);
-    if (svd.singularValues()[5] > kSingular) continue;
-    Vector6 n = svd.matrixV().col(5);
-    for (Eigen::Index i = 0; i < 6; ++i) {
-      if (chain_.kernel().axes[static_cast<std::size_t>(i)].prismatic) n[i] *= length_;
-    }
-    if (continues(q, n)) {
+    const Fold fold = foldAt(q, point);
+    if (fold.sigma > kSingular) continue;
+    // Other directions make up for the residual across u only: where it is bent along u, the root is a double one.
+    if (fold.is_only_one && std::abs(fold.kappa) > kBent) continue;
+    if (continues(q, fold.n)) {
       solutions_.degenerate = true;
       return;
     }

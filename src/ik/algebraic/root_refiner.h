@@ -27,16 +27,29 @@ class RootRefiner {
     double error = 0.0;
   };
 
+  /// Where J is almost singular, J n = sigma u: a step t n changes the residual by -sigma t u - t^2 / 2 bend.
+  struct Fold {
+    Vector6 u;
+    Vector6 n;  ///< [rad], [lengths]
+    Vector6 bend;
+    double sigma = 0.0;
+    double kappa = 0.0;        ///< u . bend
+    bool is_only_one = false;  ///< No other direction is almost lost.
+  };
+
   void evaluate(const Vector6& q, Point& point) const;
   bool refine(Vector6& q, Point& point) const;
   int insert(const Vector6& q);
   bool isSame(const Vector6& a, const Vector6& b) const;
   Vector6 difference(const Vector6& to, const Vector6& from) const;
+  Fold foldAt(const Vector6& q, const Point& point) const;
+  static bool stepAcross(const Point& point, const Fold& fold, Vector6& step);
   void addMate(const Vector6& q, const Point& point);
   bool continues(const Vector6& q, const Vector6& direction) const;
 
   const SerialChain& chain_;
   double length_;
+  Vector6 unit_ = Vector6::Ones();  ///< Of the joints' steps: rad, or the length.
   const Pose& target_;
   AlgebraicSolutions& solutions_;
 };

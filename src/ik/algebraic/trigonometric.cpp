@@ -13,6 +13,7 @@ constexpr double kNoiseFloor = 1e-15;     ///< Of a coefficient.
 constexpr double kFinestInterval = 1e-7;  ///< [rad] half-width
 constexpr int kMaxIntervals = 20000;      ///< Looked at; more are met only where the polynomial is noise.
 constexpr int kNewtonSteps = 40;
+constexpr double kSameExtremum = 1e-12;  ///< [rad]
 
 /// cos and sin of 2 pi i / 32.
 struct Circle {
@@ -70,7 +71,11 @@ class Subdivision {
     const double d3 = std::abs(d[3]);
     if (std::abs(d[0]) > tolerance_ + r * (d1 + r / 2.0 * (d2 + r / 3.0 * (d3 + r / 4.0 * fourth_bound_)))) return;
     if (d1 > r * (d2 + r / 2.0 * (d3 + r / 3.0 * fourth_bound_))) {
-      if ((at_low < 0.0) != (at_high < 0.0)) add({polished(low, high, at_low), false});
+      addBetween(low, high, at_low, at_high, x);
+      return;
+    }
+    if (d2 > r * (d3 + r / 2.0 * fourth_bound_)) {
+      searchBent(low, high, at_low, at_high);
       return;
     }
     if (r < finest_) {
@@ -82,9 +87,37 @@ class Subdivision {
     search(x, high, d[0], at_high);
   }
 
-  /// The one root between, by Newton's method kept inside by bisection.
-  double polished(double low, double high, double at_low) const {
+  /// Where the second derivative keeps its sign: a root on each side of the extremum at most, or one that touches in
+  /// it.
+  void searchBent(double low, double high, double at_low, double at_high) {
     double x = 0.5 * (low + high);
+    std::array<double, 4> d{};
+    double step = 0.0;
+    for (int i = 0; i < kNewtonSteps; ++i) {
+      d = f_.derivatives(x);
+      step = -d[1] / d[2];
+      const double next = std::clamp(x + step, low, high);
+      if (std::abs(next - x) < kSameExtremum) break;
+      x = next;
+    }
+    const bool is_inside = std::abs(step) <= finest_;
+    if (is_inside && std::abs(d[0]) <= tolerance_ + 0.5 * finest_ * finest_ * std::abs(d[2])) {
+      addTouching(x);
+      return;
+    }
+    const double apart = std::sqrt(std::abs(2.0 * d[0] / d[2]));  // Of the parabola's roots from its extremum.
+    addBetween(low, x, at_low, d[0], x - apart);
+    addBetween(x, high, d[0], at_high, x + apart);
+  }
+
+  /// The root of a monotone stretch, where it has one.
+  void addBetween(double low, double high, double at_low, double at_high, double start) {
+    if ((at_low < 0.0) != (at_high < 0.0)) add({polished(low, high, at_low, start), false});
+  }
+
+  /// The one root between, by Newton's method kept inside by bisection.
+  double polished(double low, double high, double at_low, double start) const {
+    double x = start > low && start < high ? start : 0.5 * (low + high);
     for (int i = 0; i < kNewtonSteps; ++i) {
       const std::array<double, 4> d = f_.derivatives(x);
       ((d[0] < 0.0) == (at_low < 0.0) ? low : high) = x;
