@@ -23,7 +23,7 @@ std::vector<Candidate> rootsOf(const AlgebraicSolver& solver, const Pose& target
   return candidates;
 }
 
-void bringNear(const SerialChain& chain, const VectorX& reference, VectorX& q) {
+void bringNear(const SerialChain& chain, const Eigen::Ref<const VectorX>& reference, Eigen::Ref<VectorX> q) {
   for (int i = 0; i < chain.size(); ++i) {
     const double apart = q[i] - reference[i];
     if (chain.joint(i).isRevolute() && !(std::abs(apart) <= kPi)) q[i] = reference[i] + withoutTurns(apart);

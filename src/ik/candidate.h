@@ -2,6 +2,7 @@
 #define SCREWLINE_SRC_IK_CANDIDATE_H
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ constexpr double kSameSolution = 1e-6;
 /// Errors, by forward kinematics, that a solution may have: m and rad.
 constexpr double kSolutionTolerance = 1e-9;
 
+/// A member of a continuum, of a chain of eight joints at most: no memory of its own to be got and given back.
+using MemberVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
+
 /// What is told of a continuum.
 struct Continuum {
   VectorX nearest;     ///< Its member nearest to the seed; within limits, where they are honoured and any member is.
@@ -25,6 +29,8 @@ struct Continuum {
   VectorX lower;  ///< Range of each of them, moving from `nearest` one parameter at a time until a limit is met.
   VectorX upper;
 };
+
+struct CurveImage;
 
 /// A configuration that a solver proposes, on its way to becoming an IkAnswer.
 struct Candidate {
@@ -35,6 +41,8 @@ struct Candidate {
   /// Member of the same branch of the continuum with the free joints at the values that `preferred` has; false where
   /// there is none.
   std::function<bool(const VectorX& preferred, VectorX& q)> member;
+  /// Given where another candidate's continuum is this one's image.
+  std::shared_ptr<CurveImage> image;
   /// Given where the solver knows the continuum better than by members: describes it itself.
   std::function<Continuum(const VectorX& seed, bool ignore_limits)> describe;
 };
@@ -45,7 +53,7 @@ Candidate unnamed(const VectorX& q);
 std::vector<Candidate> rootsOf(const AlgebraicSolver& solver, const Pose& target, bool& complete);
 
 /// Brings revolute values next to `reference` by full turns; those that are, stay as they are to the bit.
-void bringNear(const SerialChain& chain, const VectorX& reference, VectorX& q);
+void bringNear(const SerialChain& chain, const Eigen::Ref<const VectorX>& reference, Eigen::Ref<VectorX> q);
 /// q with revolute values brought next to `reference`.
 VectorX nearestTurns(const SerialChain& chain, VectorX q, const VectorX& reference);
 

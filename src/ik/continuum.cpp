@@ -36,14 +36,18 @@ class Family {
     preferred_ = near;
     for (Eigen::Index i = 0; i < parameters.size(); ++i)
       preferred_[candidate_.free[static_cast<std::size_t>(i)]] = parameters[i];
-    return atPreferred(near, q);
+    if (!memberIn(near)) return false;
+    q = member_;
+    return true;
   }
 
-  /// The same where one joint is free.
-  bool at(double value, const VectorX& near, VectorX& q) const {
+  /// The same where one joint is free. `near` may be `q`.
+  bool at(double value, const MemberVector& near, MemberVector& q) const {
     preferred_ = near;
     preferred_[candidate_.free.front()] = value;
-    return atPreferred(near, q);
+    if (!memberIn(near)) return false;
+    q = member_;
+    return true;
   }
 
   VectorX parameters(const VectorX& q) const {
@@ -69,13 +73,11 @@ class Family {
   }
 
  private:
-  bool atPreferred(const VectorX& near, VectorX& q) const {
-    // `near` may be `q`.
+  /// In the turns next to `near`; the free joints themselves are set, not wrapped.
+  bool memberIn(const Eigen::Ref<const VectorX>& near) const {
     if (!candidate_.member(preferred_, member_)) return false;
     bringNear(chain_, near, member_);
-    // The free joints themselves are set, not wrapped.
     for (int joint : candidate_.free) member_[joint] = preferred_[joint];
-    q = member_;
     return true;
   }
 
@@ -228,10 +230,13 @@ void walk(const SerialChain& chain, const Family& family, const Candidate& candi
 void widenAlong(const SerialChain& chain, const Family& family, const Candidate& candidate, std::size_t parameter,
                 Continuum& continuum) {
   const auto place = static_cast<Eigen::Index>(parameter);
-  const auto at = [&](double value, const VectorX& near, VectorX& member) {
+  const auto at = [&](double value, const MemberVector& near, MemberVector& member) {
     VectorX values = family.parameters(continuum.nearest);
     values[place] = value;
-    return family.at(values, near, member);
+    VectorX found;
+    if (!family.at(values, near, found)) return false;
+    member = found;
+    return true;
   };
   if (widenAlongLine(chain, at, candidate.free[parameter], continuum)) return;
   for (double direction : {-1.0, 1.0}) walk(chain, family, candidate, place, direction, continuum);
@@ -252,13 +257,14 @@ Continuum describeContinuum(const SerialChain& chain, const Candidate& candidate
                             bool ignore_limits) {
   const Family family(chain, candidate);
   if (candidate.free.size() == 1) {
-    const auto at = [&](double value, const VectorX& near, VectorX& q) { return family.at(value, near, q); };
+    const auto at = [&](double value, const MemberVector& near, MemberVector& q) { return family.at(value, near, q); };
     const std::optional<Continuum> line =
         describeLine(chain, at, candidate.q, candidate.free.front(), seed, ignore_limits);
     if (line) return *line;
     const int joint = candidate.free.front();
     if (chain.joint(joint).isRevolute()) {
-      return SolutionCurve(chain, at, kTwoPi).describe(candidate.q[joint], candidate.q, seed, ignore_limits);
+      return SolutionCurve(chain, at, kTwoPi)
+          .describe(candidate.q[joint], candidate.q, seed, ignore_limits, candidate.image.get());
     }
   }
   Continuum continuum;

@@ -4,6 +4,8 @@
 #include <limits>
 #include <memory>
 
+#include "solution_curve.h"
+
 namespace screwline {
 namespace {
 
@@ -22,6 +24,12 @@ bool memberOf(const ClosedFormPlan& plan, const SerialChain& chain, const Pose& 
     q = member;
   }
   return least < std::numeric_limits<double>::infinity();
+}
+
+/// The two wrists of one arm.
+bool areWristsOfOneArm(const PlanSolution& a, const PlanSolution& b) {
+  return a.free == b.free && a.rank == b.rank && a.sign[0] == b.sign[0] && a.sign[1] == b.sign[1] &&
+         a.sign[2] == -b.sign[2];
 }
 
 /// Sets of `count` of the task's rows, positions first.
@@ -74,6 +82,12 @@ std::vector<Candidate> candidatesOf(const TaskPlan& plan, const SerialChain& cha
         q = Eigen::Map<const VectorX>(member.q.data(), n);
         return true;
       };
+      if (!candidates.empty() && areWristsOfOneArm(solutions.solutions[candidates.size() - 1], solution)) {
+        candidate.image = candidates.back().image;
+      } else if (const std::optional<int> mirrored = plan.plan.mirroredByWrist()) {
+        candidate.image = std::make_shared<CurveImage>();
+        candidate.image->mirrored = *mirrored;
+      }
     } else if (!candidate.free.empty()) {
       const ClosedFormPlan* closed_form = &plan.plan;
       candidate.member = [closed_form, &chain, target, solution](const VectorX& preferred, VectorX& q) {

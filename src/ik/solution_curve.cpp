@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "screwline/spatial/rotation.h"
 #include "turns.h"
 
 namespace screwline {
@@ -13,12 +14,14 @@ constexpr double kMoves = 1e-7;       // A joint whose range is smaller does not
 constexpr double kDifference = 2e-6;  // Of the period, for tangents.
 constexpr double kValue = 1e-14;      // [rad, m] that a joint's extreme value still gains.
 constexpr double kWider = 10.0;       // Differences, where rounding hides them.
+constexpr double kSettled = 3e-6;     // Of the period: a step whose square is nothing,
+constexpr double kLinear = 0.01;      // where steps shrink by more than this.
 constexpr int kMostSteps = 12;
 
 /// Joints that move along the run.
 std::vector<int> movingJoints(const CurveRun& run) {
-  VectorX lower = run.samples.front().q;
-  VectorX upper = lower;
+  MemberVector lower = run.samples.front().q;
+  MemberVector upper = lower;
   for (const CurveSample& sample : run.samples) {
     lower = lower.cwiseMin(sample.q);
     upper = upper.cwiseMax(sample.q);
@@ -55,7 +58,7 @@ std::optional<double> brokenLimit(const JointLimits& limits, double value) {
 }
 
 /// Ranges up to a member.
-void widen(const SerialChain& chain, const VectorX& q, Continuum& continuum) {
+void widen(const SerialChain& chain, const MemberVector& q, Continuum& continuum) {
   for (std::size_t i = 0; i < continuum.free_joints.size(); ++i) {
     const int joint = continuum.free_joints[i];
     const JointLimits& limits = chain.joint(joint).limits;
@@ -109,8 +112,7 @@ void SolutionCurve::addTurningPoints(CurveRun& run) const {
     found.back().at += period_;
     bringNear(chain_, samples.back().q, found.back().q);
   }
-  run.samples.insert(run.samples.end(), found.begin(), found.end());
-  order(run);
+  insert(run, std::move(found));
 }
 
 /// Where between two members a joint has a value, by regula falsi (Illinois).
@@ -154,25 +156,31 @@ void SolutionCurve::addLimits(CurveRun& run) const {
       }
     }
   }
-  run.samples.insert(run.samples.end(), found.begin(), found.end());
-  order(run);
+  insert(run, std::move(found));
+}
+
+/// From the seed to a member, in the turns that are taken.
+MemberVector SolutionCurve::awayFrom(const MemberVector& q, const VectorX& seed, bool honour) const {
+  if (honour) return chooseTurns(chain_, q, seed, true, false, kLimitBand).q - seed;
+  MemberVector away = q - seed;
+  for (int i = 0; i < chain_.size(); ++i) {
+    if (chain_.joint(i).isRevolute()) away[i] = withoutTurns(away[i]);
+  }
+  return away;
 }
 
 /// Newton's method on the distance to the seed, with the curve's own curvature.
 CurveSample SolutionCurve::nearestAbout(const CurveSample& start, double from, double to, const VectorX& seed,
-                                        bool ignore_limits) const {
-  const auto distanceOf = [&](const CurveSample& sample) {
-    return (chooseTurns(chain_, sample.q, seed, true, ignore_limits, kLimitBand).q - seed).squaredNorm();
-  };
+                                        bool honour) const {
   CurveSample best = start;
-  double least = distanceOf(best);
+  MemberVector away = awayFrom(best.q, seed, honour);
   double h = kDifference * period_;
+  double moved = period_;
   for (int k = 0; k < kMostSteps && best.at - h >= from && best.at + h <= to; ++k) {
     const CurveSample ahead = sampleAt(best.at + h, best.q);
     const CurveSample behind = sampleAt(best.at - h, best.q);
     if (!ahead.exists() || !behind.exists()) break;
-    const VectorX away = chooseTurns(chain_, best.q, seed, true, ignore_limits, kLimitBand).q - seed;
-    const VectorX rate = (ahead.q - behind.q) / (2.0 * h);
+    const MemberVector rate = (ahead.q - behind.q) / (2.0 * h);
     const double bend = (ahead.q - 2.0 * best.q + behind.q).dot(away) / (h * h);
     const double steepness = rate.squaredNorm() + std::max(bend, -0.5 * rate.squaredNorm());
     if (!(steepness > 0.0)) {  // Rounding has put the three members on one place.
@@ -180,24 +188,26 @@ CurveSample SolutionCurve::nearestAbout(const CurveSample& start, double from, d
       continue;
     }
     double step = -rate.dot(away) / steepness;
-    bool moved = false;
-    for (int half = 0; half < 10 && !moved; ++half, step *= 0.5) {
+    const double last = moved;
+    moved = 0.0;
+    for (int half = 0; half < 10; ++half, step *= 0.5) {
       CurveSample next = sampleAt(std::clamp(best.at + step, from, to), best.q);
       if (!next.exists()) continue;
-      const double distance = distanceOf(next);
-      if (distance > least) continue;
-      moved = std::abs(next.at - best.at) > kFine * period_;
+      const MemberVector away_there = awayFrom(next.q, seed, honour);
+      if (away_there.squaredNorm() > away.squaredNorm()) continue;
+      moved = std::abs(next.at - best.at);
       best = std::move(next);
-      least = distance;
-      if (!moved) return best;
+      away = away_there;
+      break;
     }
-    if (!moved) break;
+    const bool is_quadratic = moved <= kSettled * period_ && moved <= kLinear * last;  // So the next is nothing.
+    if (moved <= kFine * period_ || is_quadratic) break;
   }
   return best;
 }
 
 /// From one side at an end of the run.
-VectorX SolutionCurve::tangentAt(const CurveRun& run, const CurveSample& sample) const {
+MemberVector SolutionCurve::tangentAt(const CurveRun& run, const CurveSample& sample) const {
   const double h = kDifference * period_;
   const bool goes_on = run.closed || sample.at + h <= run.samples.back().at;
   const bool came_on = run.closed || sample.at - h >= run.samples.front().at;
@@ -209,7 +219,7 @@ VectorX SolutionCurve::tangentAt(const CurveRun& run, const CurveSample& sample)
 /// From the nearest member until a joint meets a limit or the run ends; all the way round where it is closed.
 void SolutionCurve::walk(const CurveRun& run, const CurveSample& nearest, int way, Continuum& continuum) const {
   const std::vector<CurveSample>& samples = run.samples;
-  const VectorX turned = continuum.nearest - nearest.q;  // By full turns.
+  const MemberVector turned = continuum.nearest - nearest.q;  // By full turns.
   const auto count = static_cast<std::ptrdiff_t>(samples.size()) - 1;
   const auto place = std::upper_bound(samples.begin(), samples.end(), nearest.at,
                                       [](double at, const CurveSample& sample) { return at < sample.at; }) -
@@ -248,7 +258,7 @@ CurveSample SolutionCurve::sampleOf(const CurveRun& run, std::ptrdiff_t i) const
 }
 
 /// The squared distance to the seed in the nearest turns; no other turns are nearer.
-double SolutionCurve::leastSquare(const VectorX& q, const VectorX& seed) const {
+double SolutionCurve::leastSquare(const MemberVector& q, const VectorX& seed) const {
   double sum = 0.0;
   for (int i = 0; i < chain_.size(); ++i) {
     const double apart = std::abs(q[i] - seed[i]);
@@ -307,7 +317,7 @@ CurveSample SolutionCurve::nearestIn(const CurveRun& run, std::size_t number, co
   const std::vector<CurveSample>& samples = run.samples;
   const double from = reachFrom(run, number, -1, seed, honour);
   const double to = reachFrom(run, number, 1, seed, honour);
-  CurveSample nearest = nearestAbout(samples[number], from, to, seed, !honour);
+  CurveSample nearest = nearestAbout(samples[number], from, to, seed, honour);
   if (nearest.at < samples.front().at || nearest.at > samples.back().at) {
     const double round = nearest.at < samples.front().at ? 1.0 : -1.0;
     nearest.at += round * period_;
@@ -316,11 +326,11 @@ CurveSample SolutionCurve::nearestIn(const CurveRun& run, std::size_t number, co
   return nearest;
 }
 
-Continuum SolutionCurve::describe(double start, const VectorX& q, const VectorX& seed, bool ignore_limits) const {
-  std::vector<CurveRun> runs = runsOf(allRound(start, q));
-  for (CurveRun& run : runs) {
-    addTurningPoints(run);
-    if (!ignore_limits) addLimits(run);
+Continuum SolutionCurve::describe(double start, const VectorX& q, const VectorX& seed, bool ignore_limits,
+                                  CurveImage* image) const {
+  std::vector<CurveRun> runs = runsFrom(start, q, image);
+  if (!ignore_limits) {
+    for (CurveRun& run : runs) addLimits(run);
   }
   const CurveRun* run = &runs.front();
   std::size_t number = 0;

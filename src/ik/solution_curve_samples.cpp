@@ -1,6 +1,7 @@
 // Members all the way round a continuum, and the stretches that they make.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "solution_curve.h"
 
@@ -13,16 +14,16 @@ constexpr double kFar = 0.4;      // [rad; m per characteristic length] from one
 
 }  // namespace
 
-CurveSample SolutionCurve::sampleAt(double at, const VectorX& near) const {
+CurveSample SolutionCurve::sampleAt(double at, const MemberVector& near) const {
   CurveSample sample{at, near};
   if (!at_(at, near, sample.q)) sample.q.resize(0);
   return sample;
 }
 
-bool SolutionCurve::movesFar(const VectorX& a, const VectorX& b) const {
+bool SolutionCurve::movesFar(const MemberVector& a, const MemberVector& b) const {
   for (int i = 0; i < chain_.size(); ++i) {
-    const double unit = chain_.joint(i).isRevolute() ? 1.0 : chain_.characteristicLength();
-    if (std::abs(a[i] - b[i]) > kFar * unit) return true;
+    const double apart = std::abs(a[i] - b[i]);
+    if (chain_.joint(i).isRevolute() ? apart > kFar : apart > kFar * chain_.characteristicLength()) return true;
   }
   return false;
 }
@@ -44,11 +45,11 @@ void SolutionCurve::refine(const CurveSample& from, const CurveSample& to, std::
   refine(middle, to, samples);
 }
 
-std::vector<CurveSample> SolutionCurve::allRound(double start, const VectorX& q) const {
+std::vector<CurveSample> SolutionCurve::allRound(double start, const MemberVector& q) const {
   std::vector<CurveSample> samples = {{start, q}};
   samples.reserve(4 * kSamples);
   CurveSample before = samples.front();
-  VectorX near = q;
+  MemberVector near = q;
   for (int i = 1; i <= kSamples; ++i) {
     CurveSample next = sampleAt(start + period_ * i / kSamples, near);
     refine(before, next, samples);
@@ -57,6 +58,29 @@ std::vector<CurveSample> SolutionCurve::allRound(double start, const VectorX& q)
     before = std::move(next);
   }
   return samples;
+}
+
+/// With the members in which joints turn back; by those of an image, where they are known.
+std::vector<CurveRun> SolutionCurve::runsFrom(double start, const MemberVector& q, CurveImage* image) const {
+  if (image != nullptr && !image->runs.empty() && image->start == start) {
+    std::vector<CurveRun> runs = image->runs;
+    for (CurveRun& run : runs) {
+      for (CurveSample& sample : run.samples) {
+        sample.q -= image->q;
+        sample.q[image->mirrored] *= -1.0;
+        sample.q += q;
+      }
+    }
+    return runs;
+  }
+  std::vector<CurveRun> runs = runsOf(allRound(start, q));
+  for (CurveRun& run : runs) addTurningPoints(run);
+  if (image != nullptr) {
+    image->start = start;
+    image->q = q;
+    image->runs = runs;
+  }
+  return runs;
 }
 
 /// The last member towards `outside`, where there is none. At a jump it is there already; at a fold the joints move
@@ -96,7 +120,7 @@ std::vector<CurveRun> SolutionCurve::runsOf(std::vector<CurveSample> samples) co
       runs.back().samples.push_back(samples[i]);
     }
   }
-  for (CurveRun& run : runs) order(run);
+  for (CurveRun& run : runs) bringTogether(run);
   // The members in a jump itself are of the continuum that crosses.
   const auto first_point = std::stable_partition(runs.begin(), runs.end(), [this](const CurveRun& run) {
     return run.samples.back().at - run.samples.front().at > 2.0 * kFine * period_;
@@ -105,10 +129,20 @@ std::vector<CurveRun> SolutionCurve::runsOf(std::vector<CurveSample> samples) co
   return runs;
 }
 
-void SolutionCurve::order(CurveRun& run) const {
-  std::stable_sort(run.samples.begin(), run.samples.end(),
-                   [](const CurveSample& a, const CurveSample& b) { return a.at < b.at; });
+/// Each into the turns next to the one before.
+void SolutionCurve::bringTogether(CurveRun& run) const {
   for (std::size_t i = 1; i < run.samples.size(); ++i) bringNear(chain_, run.samples[i - 1].q, run.samples[i].q);
+}
+
+/// Members into their places among those of the run.
+void SolutionCurve::insert(CurveRun& run, std::vector<CurveSample> found) const {
+  const auto isBefore = [](const CurveSample& a, const CurveSample& b) { return a.at < b.at; };
+  std::stable_sort(found.begin(), found.end(), isBefore);
+  std::vector<CurveSample> all;
+  all.reserve(run.samples.size() + found.size());
+  std::merge(run.samples.begin(), run.samples.end(), found.begin(), found.end(), std::back_inserter(all), isBefore);
+  run.samples = std::move(all);
+  bringTogether(run);
 }
 
 }  // namespace screwline

@@ -16,11 +16,11 @@ constexpr double kMostSlide = 100.0;  // Characteristic lengths that a slide wit
 std::optional<VectorX> directionOf(const SerialChain& chain, const MemberAt& at, const VectorX& q, int joint) {
   // Far apart, and no multiples of each other.
   const double unit = chain.joint(joint).isRevolute() ? 1.0 : 0.3 * chain.characteristicLength();
-  VectorX member = q;
-  if (!at(q[joint] + unit, q, member)) return std::nullopt;
+  MemberVector member = q;
+  if (!at(q[joint] + unit, member, member)) return std::nullopt;
   const VectorX direction = (member - q) / unit;
   for (double steps : {2.3, -1.7}) {
-    const VectorX expected = q + steps * unit * direction;
+    const MemberVector expected = q + steps * unit * direction;
     if (!at(expected[joint], expected, member)) return std::nullopt;
     if (!((member - expected).cwiseAbs().maxCoeff() <= kStraight)) return std::nullopt;
   }

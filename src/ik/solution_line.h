@@ -9,7 +9,7 @@
 namespace screwline {
 
 /// Members of a continuum by the value of its one free joint, in the turns next to `near`; false where there is none.
-using MemberAt = std::function<bool(double value, const VectorX& near, VectorX& member)>;
+using MemberAt = std::function<bool(double value, const MemberVector& near, MemberVector& member)>;
 
 /// A continuum that is a straight line in joint space: joints that turn about one line (an aligned wrist), a joint
 /// whose axis goes through the point that is asked for, slides in line. Known by members far apart that lie on a line

@@ -38,8 +38,9 @@ std::vector<LoopArc> traced(const std::vector<SheetStretch>& stretches, std::siz
 SolutionLoops loopsOfPair(const ParallelPlan& plan, const SerialChain& chain, const Pose& target) {
   SolutionLoops found;
   for (const ParallelSheet& sheet : plan.sheets(target)) {
-    const auto member = [sheet](const LoopArc& arc, double value, const VectorX&) {
-      return jointsOf(sheet.member(value, arc.sign[1]), 6);
+    const auto member = [sheet](const LoopArc& arc, double value, const MemberVector&) {
+      const PlanSolution solution = sheet.member(value, arc.sign[1]);
+      return MemberVector(Eigen::Map<const Vector6>(solution.q.data()));
     };
     const std::vector<SheetStretch> stretches = sheet.stretches();
     std::vector<std::array<bool, 2>> seen(stretches.size());
@@ -74,7 +75,7 @@ std::array<int, 3> SolutionLoop::sign() const {
   return sign;
 }
 
-VectorX SolutionLoop::at(double u, const VectorX& near) const {
+MemberVector SolutionLoop::at(double u, const MemberVector& near) const {
   const double way = (u - std::floor(u)) * static_cast<double>(arcs_.size());
   const auto index = std::min(static_cast<std::size_t>(way), arcs_.size() - 1);
   const LoopArc& arc = arcs_[index];
@@ -83,11 +84,13 @@ VectorX SolutionLoop::at(double u, const VectorX& near) const {
   const double value = arcs_.size() == 1
                            ? arc.from + share * (arc.to - arc.from)
                            : 0.5 * (arc.from + arc.to) + 0.5 * (arc.from - arc.to) * std::cos(kPi * share);
-  return nearestTurns(*chain_, member_(arc, value, near), near);
+  MemberVector member = member_(arc, value, near);
+  bringNear(*chain_, near, member);
+  return member;
 }
 
 Continuum SolutionLoop::describe(const VectorX& seed, bool ignore_limits) const {
-  const auto member = [this](double u, const VectorX& near, VectorX& q) {
+  const auto member = [this](double u, const MemberVector& near, MemberVector& q) {
     q = at(u, near);
     return true;
   };

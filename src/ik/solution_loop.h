@@ -18,7 +18,7 @@ struct LoopArc {
 
 /// The member of an arc with the free joint at a value; where the branch ends there and rounding left none, the one
 /// next to `near`.
-using ArcMember = std::function<VectorX(const LoopArc& arc, double value, const VectorX& near)>;
+using ArcMember = std::function<MemberVector(const LoopArc& arc, double value, const MemberVector& near)>;
 
 /// A continuum of one dimension at a singular pose: a closed curve of solutions, exact members all the way round. Where
 /// the free joint turns back, two branches meet: one arc ends there and the next one begins.
@@ -31,7 +31,7 @@ class SolutionLoop {
   /// Sign 0 where its arcs differ.
   std::array<int, 3> sign() const;
   /// Member at u in [0, 1] of the way round (any u: it goes on), revolute values in the turns next to `near`.
-  VectorX at(double u, const VectorX& near) const;
+  MemberVector at(double u, const MemberVector& near) const;
 
   /// As SolutionCurve does, over the way round.
   Continuum describe(const VectorX& seed, bool ignore_limits) const;

@@ -118,10 +118,11 @@ std::vector<std::vector<LoopArc>> chained(Sheets& sheets, const SerialChain& cha
 
 /// Where there is none, which rounding can leave at an end, the one next to `near`: in a fold itself the branch has its
 /// neutral sign.
-VectorX memberNear(Sheets& sheets, const SerialChain& chain, const LoopArc& arc, double value, const VectorX& near) {
+MemberVector memberNear(Sheets& sheets, const SerialChain& chain, const LoopArc& arc, double value,
+                        const MemberVector& near) {
   PlanSolution solution;
   if (sheets.exists(value, arc.sign, solution)) return jointsOf(solution, 6);
-  VectorX nearest = near;
+  MemberVector nearest = near;
   double least = std::numeric_limits<double>::infinity();
   for (const PlanSolution& one : sheets.at(value)) {
     const VectorX q = jointsOf(one, 6);
@@ -164,7 +165,7 @@ SolutionLoops sampledLoops(const ParallelPlan& plan, const SerialChain& chain, c
   SolutionLoops found;
   for (std::vector<LoopArc>& loop : chained(sheets, chain, arcs)) {
     found.loops.emplace_back(chain, joint, std::move(loop),
-                             [sheets, &chain](const LoopArc& arc, double value, const VectorX& near) mutable {
+                             [sheets, &chain](const LoopArc& arc, double value, const MemberVector& near) mutable {
                                return memberNear(sheets, chain, arc, value, near);
                              });
   }

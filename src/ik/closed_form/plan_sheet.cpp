@@ -47,19 +47,27 @@ std::optional<PlanSheet> ClosedFormPlan::sheetOf(const Pose& target, const PlanS
   if (arm == nullptr || moved == nullptr || !areAlikeBut(axis, *arm, *moved)) return std::nullopt;
   PlanSheet sheet;
   sheet.plan_ = this;
-  sheet.axis_ = axis;
-  sheet.arm_ = *arm;
+  sheet.joint_ = static_cast<std::size_t>(stage_joints_[axis]);
+  sheet.sense_ = stage_axes_[axis].prismatic ? 0.0 : stage_sign_;
   sheet.branch_ = solution;
-  sheet.M_ = goal.M;
+  const auto restAt = [&](const Turn& turn) {
+    std::array<Turn, 3> turns = arm->turn;
+    if (!stage_axes_[axis].prismatic) turns[axis] = turn;
+    Matrix3 rest = goal.M;
+    others_.undo(turns, rest);
+    return shape_ == Shape::kShoulder ? Matrix3(rest.transpose()) : rest;
+  };
+  const Matrix3 here = restAt({1.0, 0.0});
+  const Matrix3 opposite = restAt({-1.0, 0.0});
+  sheet.middle_ = 0.5 * (here + opposite);
+  sheet.cosine_ = 0.5 * (here - opposite);
+  sheet.sine_ = restAt({0.0, 1.0}) - sheet.middle_;
   return sheet;
 }
 
 bool PlanSheet::member(double value, PlanSolution& solution) const {
-  std::array<Turn, 3> turns = arm_.turn;
-  if (!plan_->stage_axes_[axis_].prismatic) turns[axis_] = turnBy(plan_->stage_sign_ * value);
-  Matrix3 rest = M_;
-  plan_->others_.undo(turns, rest);
-  if (plan_->shape_ == ClosedFormPlan::Shape::kShoulder) rest.transposeInPlace();
+  const Turn turn = turnBy(sense_ * value);
+  const Matrix3 rest = middle_ + turn.c * cosine_ + turn.s * sine_;
   TurnBatch batch;
   const OrientationTurns wrists = plan_->orientation_->turnsInFrames(rest, 0.0, 0.0, batch);
   batch.takeAngles();
@@ -69,7 +77,7 @@ bool PlanSheet::member(double value, PlanSolution& solution) const {
   for (const OrientationSolution& wrist : found) {
     if (wrist.free || wrist.sign != branch_.sign[2]) continue;
     solution = branch_;
-    solution.q[static_cast<std::size_t>(plan_->stage_joints_[axis_])] = value;
+    solution.q[joint_] = value;
     for (std::size_t i = 0; i < 3; ++i) solution.q[first + i] = wrist.q[i];
     return true;
   }

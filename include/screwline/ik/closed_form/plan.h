@@ -76,6 +76,13 @@ class ClosedFormPlan {
   /// spherical axes' point (which lies on its axis); empty elsewhere. The plan must outlive it. No allocation.
   std::optional<PlanSheet> sheetOf(const Pose& target, const PlanSolution& solution) const;
 
+  /// The joint that stands at opposite values for the two wrists of one arm, counted from a constant, the other two
+  /// half a turn apart: where neighbouring spherical axes are at right angles.
+  std::optional<int> mirroredByWrist() const {
+    const bool is_mirrored = orientation_ && orientation_->isAcross();
+    return is_mirrored ? std::optional<int>(spherical_first_ + 1) : std::nullopt;
+  }
+
   /// As "position by three joints (axes that meet), spherical wrist".
   const std::string& method() const { return method_; }
   const std::vector<BranchPart>& branchParts() const { return parts_; }
@@ -156,10 +163,13 @@ class PlanSheet {
   PlanSheet() = default;
 
   const ClosedFormPlan* plan_ = nullptr;
-  PositionSolution arm_;
-  std::size_t axis_ = 0;  ///< The free one, of the arm's three.
-  PlanSolution branch_;   ///< With the arm's joints.
-  Matrix3 M_;
+  std::size_t joint_ = 0;  ///< The free one.
+  double sense_ = 0.0;     ///< Of its turn; 0: it slides.
+  PlanSolution branch_;    ///< With the arm's joints.
+  /// What is left for the spherical axes: middle + cosine cos + sine sin of the free joint's turn.
+  Matrix3 middle_;
+  Matrix3 cosine_;
+  Matrix3 sine_;
 };
 
 }  // namespace screwline
