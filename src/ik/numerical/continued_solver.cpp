@@ -1,13 +1,14 @@
 #include "screwline/ik/numerical/continued_solver.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "descent.h"
 #include "screwline/kinematics/forward.h"
+#include "screwline/kinematics/singularity.h"
 #include "screwline/spatial/rotation.h"
 #include "screwline/spatial/svd.h"
+#include "screwline/spatial/weak_directions.h"
 #include "solution_set.h"
 #include "valley.h"
 
@@ -150,7 +151,10 @@ double Continuation::weakest(const ConstVectorRef& q) {
   point_.q = q;
   residual_.evaluate(point_);
   for (int i = 0; i < chain_.size(); ++i) point_.J.col(i) *= box().unit(i);
-  return Eigen::JacobiSVD<TaskMatrix>(point_.J).singularValues().minCoeff();
+  if (point_.J.rows() != point_.J.cols()) return singularValues(point_.J).minCoeff();
+  const SmallMatrix J = point_.J;
+  const WeakDirections weak = weakDirectionsOf(J, J.norm());
+  return weak.sigma[weak.sigma.size() - 1];
 }
 
 MatrixX Continuation::weakDirections(const VectorX& q) {

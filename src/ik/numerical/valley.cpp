@@ -1,13 +1,13 @@
 #include "valley.h"
 
-#include <Eigen/SVD>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "screwline/spatial/weak_directions.h"
+
 namespace screwline {
 namespace {
-
-using SquareMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 // Lengths in scaled joint units.
 constexpr double kFirstStep = 0.05;
@@ -39,16 +39,15 @@ bool Valley::settle(Node& node, const Node* reference) {
   const auto n = node.q.size();
   for (node.corrections = 0; node.corrections < kMaxCorrections; ++node.corrections) {
     residual_.evaluate(point_);
-    SquareMatrix J = point_.J;
+    SmallMatrix J = point_.J;
     for (Eigen::Index i = 0; i < n; ++i) J.col(i) *= box_.unit(static_cast<int>(i));
-    const Eigen::JacobiSVD<SquareMatrix> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    TaskVector part = svd.matrixU().transpose() * point_.residual;
-    node.lost = svd.matrixU().col(n - 1);
-    node.tangent = svd.matrixV().col(n - 1);
-    node.depth = part[n - 1];
-    for (Eigen::Index i = 0; i + 1 < n; ++i) part[i] /= std::max(svd.singularValues()[i], 1e-12);
-    part[n - 1] = 0.0;
-    const JointVector step = svd.matrixV() * part;
+    const WeakDirections weak = weakDirectionsOf(J, J.norm());
+    node.lost = weak.U.rightCols<1>();
+    node.tangent = weak.V.rightCols<1>();
+    node.depth = node.lost.dot(point_.residual);
+    // Regular with the direction that is about to be lost, the residual's part along which is left alone.
+    J += node.lost * node.tangent.transpose();
+    const JointVector step = J.partialPivLu().solve(point_.residual - node.depth * node.lost);
     const double length = step.norm();
     if (!(length < kLongestCorrection)) return false;
     if (length < kSettled) break;
