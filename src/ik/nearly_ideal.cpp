@@ -15,6 +15,8 @@ namespace screwline {
 namespace {
 
 constexpr int kMostIterations = 20;  // Of a descent: an ideal solution that is near needs a few.
+constexpr double kClear = 4.0;       // Times near_singular_, whose square over the chain's length is the deviation.
+constexpr double kReach = 2.0;       // First steps of Newton's method within which its end lies.
 
 std::vector<IdealSolution> ideally(const std::vector<Candidate>& candidates) {
   std::vector<IdealSolution> solutions;
@@ -44,6 +46,7 @@ IdealSolver exactSolver(const std::shared_ptr<const SerialChain>& chain, const T
 NearlyIdeal::NearlyIdeal(const SerialChain& chain, const SerialChain& ideal, const Task& task, const IdealSolver& exact)
     : chain_(chain), task_(task), exact_(exact), continued_(chain, ideal, task, exact) {
   const double length = chain.characteristicLength();
+  deviation_ = std::hypot(continued_.positionDeviation(), continued_.rotationDeviation());
   near_singular_ =
       std::sqrt(length * std::hypot(continued_.positionDeviation(), length * continued_.rotationDeviation()));
 }
@@ -56,21 +59,32 @@ std::optional<NearlyIdeal> NearlyIdeal::compile(const SerialChain& chain, const 
   return NearlyIdeal(chain, ideal->chain, task, exact);
 }
 
-/// Whether every ideal solution leads to one of its own. A singular one may lead to two.
+/// Whether every ideal solution leads to one of its own. A singular one may lead to two; from one that is clear of
+/// singularities Newton's method goes to the only solution near (Kantorovich: its first step, times the second
+/// derivative over the least singular value, is small), and need not be sent there.
 bool NearlyIdeal::confirms(const Pose& target, const VectorX& seed, const std::vector<Candidate>& found) const {
   DescentOptions options;
   options.honour_limits = false;
   options.max_iterations = kMostIterations;
   std::vector<bool> taken(found.size(), false);
+  Matrix6X J;
   for (const IdealSolution& ideal : exact_(target, seed)) {
-    Matrix6X J;
+    if (!ideal.free.empty()) return false;
     geometricJacobian(chain_, ideal.q, J);
-    if (!ideal.free.empty() || conditioningOf(task_.select(J), 0.0).smallest < near_singular_) return false;
-    VectorX q = descend(chain_, task_, target, ideal.q, options).q;
-    polish(chain_, task_, target, q);
-    const auto known = std::find_if(found.begin(), found.end(), [&](const Candidate& candidate) {
-      return isSameConfiguration(chain_, candidate.q, q);
-    });
+    const double least = conditioningOf(task_.select(J), 0.0).smallest;
+    if (least < near_singular_) return false;
+    const auto knownWithin = [&](const VectorX& q, double reach) {
+      return std::find_if(found.begin(), found.end(), [&](const Candidate& candidate) {
+        return largestDifference(chain_, candidate.q, q) <= reach;
+      });
+    };
+    auto known = found.end();
+    if (least > kClear * near_singular_) known = knownWithin(ideal.q, kReach * deviation_ / least);
+    if (known == found.end()) {
+      VectorX q = descend(chain_, task_, target, ideal.q, options).q;
+      polish(chain_, task_, target, q);
+      known = knownWithin(q, kSameSolution);
+    }
     const auto place = static_cast<std::size_t>(known - found.begin());
     if (known == found.end() || taken[place]) return false;
     taken[place] = true;

@@ -31,6 +31,7 @@ class NearlyIdeal {
   Task task_;
   IdealSolver exact_;
   ContinuedSolver continued_;
+  double deviation_ = 0.0;      ///< [m, rad] Of the ideal chain's poses from the chain's.
   double near_singular_ = 0.0;  ///< Singular values below which the deviation makes solutions meet or part.
 };
 

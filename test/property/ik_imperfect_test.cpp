@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <random>
 
+#include "calibrated.h"
 #include "ik_gate.h"
 #include "shipped_robots.h"
 #include "singular_search.h"
@@ -16,6 +17,7 @@
 namespace screwline {
 namespace {
 
+using test::calibrated;
 using test::GateVerdict;
 using test::IkGate;
 
@@ -49,25 +51,6 @@ SerialChain withDecimals(const SerialChain& chain, int decimals) {
     row.theta = unit * std::round(row.theta / unit);
   }
   return withTable(chain, table);
-}
-
-/// Every axis turned by up to `angle` [rad] about each direction and moved by up to `length` [m].
-SerialChain calibrated(const SerialChain& chain, double angle, double length, std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto vector = [&] { return Vector3(unit(random), unit(random), unit(random)); };
-  ChainDescription description;
-  description.name = chain.name();
-  description.base_link = chain.baseLink();
-  description.tip_link = chain.tipLink();
-  description.joints = chain.joints();
-  description.axes = chain.axes();
-  for (Axis& axis : description.axes) {
-    axis.direction = (axis.direction + angle * vector().cross(axis.direction)).normalized();
-    axis.point += length * vector();
-  }
-  description.home = chain.home();
-  description.links = {{chain.tipLink(), chain.size(), description.home}};
-  return SerialChain(description);
 }
 
 struct Imperfect {
