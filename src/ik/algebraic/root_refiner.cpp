@@ -96,26 +96,35 @@ bool RootRefiner::stepAcross(const Point& point, const Fold& fold, Vector6& step
   return step.norm() <= kLongestStep;
 }
 
-/// Newton's method; where its steps are long or gain little, as where two solutions are about to meet, with the second
-/// derivative in that direction, and at last by damped steps.
+/// Newton's step; where these are long or gain little, as where two solutions are about to meet, with the second
+/// derivative in that direction. False where neither helps.
+bool RootRefiner::undampedStep(const Vector6& q, const Point& point, Convergence& so_far, Vector6& step) const {
+  so_far.crosses = false;
+  if (!so_far.is_slow && !so_far.newton_fails) {
+    if (solveLinear(point.J, point.residual, step) && step.norm() <= kLongestStep) return true;
+    so_far.newton_fails = true;
+  }
+  if (so_far.may_cross && point.error > kNearlyExact) {
+    const Fold fold = foldAt(q, point);
+    so_far.may_cross = fold.is_only_one;
+    so_far.crosses = so_far.may_cross && stepAcross(point, fold, step);
+    if (so_far.crosses) return true;
+  }
+  return !so_far.newton_fails && solveLinear(point.J, point.residual, step) && step.norm() <= kLongestStep;
+}
+
+/// Undamped steps as long as they gain, then damped ones.
 bool RootRefiner::refine(Vector6& q, Point& best) const {
   evaluate(q, best);
   Point point;
+  Convergence so_far;
   double damping = 0.0;
-  bool is_slow = false;
   int gained_nothing = 0;
   for (int k = 0; k < kMaxSteps && best.error > kExact; ++k) {
     Vector6 step;
-    const bool is_damped = damping > 0.0;
-    if (!is_damped) {
-      const bool exists = is_slow ? stepAcross(best, foldAt(q, best), step)
-                                  : solveLinear(best.J, best.residual, step) && step.norm() <= kLongestStep;
-      if (!exists) {
-        if (is_slow) damping = 1e-2 * best.error * best.error + 1e-30;
-        is_slow = true;
-        continue;
-      }
-    } else {
+    const bool is_damped = damping > 0.0 || !undampedStep(q, best, so_far, step);
+    if (is_damped) {
+      if (damping == 0.0) damping = 1e-2 * best.error * best.error + 1e-30;
       const Matrix6 normal = best.J.transpose() * best.J + damping * Matrix6::Identity();
       step = normal.ldlt().solve(best.J.transpose() * best.residual);
       if (!(step.norm() <= kLongestStep)) step *= kLongestStep / step.norm();
@@ -133,13 +142,20 @@ bool RootRefiner::refine(Vector6& q, Point& best) const {
     if (best.error < 0.9 * before) {
       gained_nothing = 0;
       damping = damping > 1e-20 ? 0.1 * damping : 0.0;
-      is_slow = best.error > std::max(kLinear * before, kNearlyExact);
+      so_far.newton_fails = false;
+      so_far.is_slow = best.error > kLinear * before;
+      so_far.may_cross = so_far.may_cross && !(so_far.crosses && so_far.is_slow);
       continue;
     }
     if (best.error < kAccepted && ((!is_damped && length < kShortStep) || ++gained_nothing > 2)) break;
-    if (is_slow || is_damped) damping = std::max({10.0 * damping, 1e-6 * best.error, 1e-30});
-    is_slow = true;
-    if (damping > 1e6) break;
+    if (is_damped) {
+      damping = std::max(10.0 * damping, 1e-6 * best.error);
+      if (damping > 1e6) break;
+    } else if (so_far.crosses) {
+      so_far.may_cross = false;
+    } else {
+      so_far.newton_fails = true;
+    }
   }
   return best.error <= kAccepted;
 }
@@ -215,7 +231,7 @@ void RootRefiner::addMate(const Vector6& q, const Point& point) {
   if (nullVectorsOf(point.J).pivot_ratio > kNearSingular) return;
   const Fold fold = foldAt(q, point);
   const double t = -2.0 * fold.sigma / fold.kappa;
-  if (!(std::abs(t) < kFarthestMate)) return;
+  if (!(std::abs(t) < kFarthestMate && std::abs(t) > 0.1 * kSame)) return;
   Vector6 mate = q + (t * fold.n).cwiseProduct(unit_);
   Point at_mate;
   if (refine(mate, at_mate)) insert(mate);

@@ -37,7 +37,16 @@ class RootRefiner {
     bool is_only_one = false;  ///< No other direction is almost lost.
   };
 
+  /// What steps have come to.
+  struct Convergence {
+    bool is_slow = false;       ///< Newton's, from the last place.
+    bool newton_fails = false;  ///< From here.
+    bool may_cross = true;      ///< A fold, as far as is known.
+    bool crosses = false;       ///< The present step does.
+  };
+
   void evaluate(const Vector6& q, Point& point) const;
+  bool undampedStep(const Vector6& q, const Point& point, Convergence& so_far, Vector6& step) const;
   bool refine(Vector6& q, Point& point) const;
   int insert(const Vector6& q);
   bool isSame(const Vector6& a, const Vector6& b) const;
