@@ -166,7 +166,7 @@ ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain&
   const bool in_doubt = refuted || (solutions.clamped != 0 && solutions.loose && !gathering.coverAll());
   if ((in_doubt || eliminate) && method.algebraic) {
     AlgebraicSolutions roots;
-    method.algebraic->solve(target, roots);
+    method.algebraic->solve(target, roots, !result.complete);
     result.complete = result.complete || roots.complete;
     for (const std::array<double, 6>& root : roots) {
       PlanSolution solution;

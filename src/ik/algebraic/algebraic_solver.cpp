@@ -45,7 +45,7 @@ std::optional<AlgebraicSolver> AlgebraicSolver::compile(const SerialChain& chain
   return AlgebraicSolver(std::move(implementation));
 }
 
-void AlgebraicSolver::solve(const Pose& target, AlgebraicSolutions& solutions) const {
+void AlgebraicSolver::solve(const Pose& target, AlgebraicSolutions& solutions, bool find_continua) const {
   const Implementation& self = *implementation_;
   solutions.count = 0;
   solutions.complete = false;
@@ -70,7 +70,7 @@ void AlgebraicSolver::solve(const Pose& target, AlgebraicSolutions& solutions) c
     if (clean || vanishing || (solutions.complete && solutions.count % 2 == 0)) break;
     turn->solve(target, refiner);
   }
-  refiner.findContinua();
+  if (find_continua) refiner.findContinua();
   solutions.degenerate = solutions.degenerate || vanishing;
   solutions.complete = solutions.complete && !solutions.degenerate;
 }

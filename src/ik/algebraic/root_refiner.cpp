@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "screwline/kinematics/kernel_sweep.h"
 #include "screwline/spatial/rotation.h"
 #include "screwline/spatial/small_svd.h"
@@ -126,7 +124,7 @@ bool RootRefiner::refine(Vector6& q, Point& best) const {
     if (is_damped) {
       if (damping == 0.0) damping = 1e-2 * best.error * best.error + 1e-30;
       const Matrix6 normal = best.J.transpose() * best.J + damping * Matrix6::Identity();
-      step = normal.ldlt().solve(best.J.transpose() * best.residual);
+      if (!solveLinear(normal, best.J.transpose() * best.residual, step)) return false;
       if (!(step.norm() <= kLongestStep)) step *= kLongestStep / step.norm();
     }
     if (!step.allFinite()) return false;

@@ -47,7 +47,8 @@ class AlgebraicSolver {
   /// All solutions, each verified: errors by forward kinematics below 1e-10 (rad, and characteristic lengths).
   /// Different from each other by more than 1e-6 in some joint. Deterministic; no allocation; may be called from many
   /// threads. @pre: the target is finite and its R a rotation.
-  void solve(const Pose& target, AlgebraicSolutions& solutions) const;
+  /// @param find_continua false: self-motions are not looked for, for who does not read `complete` and `degenerate`.
+  void solve(const Pose& target, AlgebraicSolutions& solutions, bool find_continua = true) const;
 
   /// As "algebraic: joint2 hidden, joints joint5 and joint6 eliminated linearly".
   const std::string& method() const;
