@@ -15,6 +15,7 @@ namespace {
 constexpr int kMaxSteps = 60;
 constexpr double kAccepted = 1e-11;      ///< Error of a solution.
 constexpr double kExact = 2e-15;         ///< Error that is rounding.
+constexpr double kNoise = 8.0 * kExact;  ///< Error that steps may fail to lessen.
 constexpr double kNearlyExact = 1e-13;   ///< Error that a step of any kind takes to rounding.
 constexpr double kLongestStep = 0.5;     ///< [rad], [lengths] of Newton's method.
 constexpr double kShortStep = 1e-8;      ///< [rad], [lengths] If it gains nothing, what is left is rounding.
@@ -145,7 +146,8 @@ bool RootRefiner::refine(Vector6& q, Point& best) const {
       so_far.may_cross = so_far.may_cross && !(so_far.crosses && so_far.is_slow);
       continue;
     }
-    if (best.error < kAccepted && ((!is_damped && length < kShortStep) || ++gained_nothing > 2)) break;
+    const bool is_rounding = best.error < kNoise || (!is_damped && length < kShortStep);
+    if (best.error < kAccepted && (is_rounding || ++gained_nothing > 2)) break;
     if (is_damped) {
       damping = std::max(10.0 * damping, 1e-6 * best.error);
       if (damping > 1e6) break;
@@ -187,7 +189,7 @@ bool RootRefiner::isSame(const Vector6& a, const Vector6& b) const {
   // Where the middle is a solution as well, rounding leaves open where between the two the solution lies.
   Point point;
   evaluate(middle, point);
-  return point.error <= 8.0 * kExact * farthest;
+  return point.error <= kNoise * farthest;
 }
 
 bool RootRefiner::isRegular(int place) const {
