@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
+#include <string>
 
 #include "algebraic_arms.h"
 #include "algebraic_laws.h"
 #include "screwline/ik/numerical/numerical_solver.h"
+#include "screwline/model/urdf_reader.h"
 
 namespace screwline {
 namespace {
@@ -139,6 +142,29 @@ TEST(IkAlgebraic, HoldsAtAndNearSingularities) {
       // At a double root an error of the pose is worth its square root.
       EXPECT_LE(nearest(chain, solutions, q), 2e-6);
     }
+  }
+}
+
+/// Two pairs of solutions, 1.3e-4 and 3.9e-4 apart, whose hidden angles differ by less than the noise of the eliminant
+/// tells: between the two, Newton's method stops where the residual is flat.
+TEST(IkAlgebraic, TellsSolutionsThatAreAboutToMeet) {
+  const SerialChain chain = readUrdfFile(std::string(SCREWLINE_SOURCE_DIR) + "/urdf/six_r_16.urdf");
+  const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+  ASSERT_TRUE(solver.has_value());
+  const std::array<Vector6, 2> places = {(Vector6() << -2.1470275851571299, -1.2726439557133999, -1.8498524996316759,
+                                          2.5682555231170276, -0.23511547562325275, 0.25144738710381409)
+                                             .finished(),
+                                         (Vector6() << 1.2281882279513008, 1.7178994484292636, 1.436450535745629,
+                                          2.4915715656864261, 1.0799711376761376, 2.986354803907334)
+                                             .finished()};
+  for (const Vector6& q : places) {
+    const Pose target = forwardKinematics(chain, q);
+    AlgebraicSolutions solutions;
+    solver->solve(target, solutions);
+    expectLawful(chain, target, solutions);
+    EXPECT_TRUE(solutions.complete);
+    EXPECT_EQ(solutions.count, 8) << q.transpose();
+    EXPECT_LE(nearest(chain, solutions, q), 1e-6) << q.transpose();
   }
 }
 
