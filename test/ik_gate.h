@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 #include "screwline/ik/inverse_kinematics.h"
@@ -110,21 +111,39 @@ class IkGate {
            near.solutions.front().distance <= (question.seed - solution).norm() * 1.001 + tolerance;
   }
 
-  /// Where all between two solutions solves the pose to rounding, the pose does not tell them apart.
+  /// Where the pose is met to rounding on all the way between two solutions, it does not tell them apart. The way is
+  /// taken in the weak directions alone, the others follow it: it bends.
   bool isSameToRounding(const VectorX& a, const VectorX& b) const {
     VectorX way = b - a;
     for (int i = 0; i < chain_.size(); ++i) {
       if (chain_.joint(i).isRevolute()) way[i] = std::remainder(way[i], kTwoPi);
     }
     if (way.norm() > 1e-2) return false;
+    const Svd svd(taskJacobian(chain_, a + 0.5 * way, ik_.task()), Eigen::ComputeThinU | Eigen::ComputeThinV);
     for (double share : {0.25, 0.5, 0.75, 1.0}) {
-      const double error = taskError(ik_.task(), target_, forwardKinematics(chain_, a + share * way)).norm();
-      if (error > 2e-14 * (1.0 + chain_.characteristicLength())) return false;
+      if (leastErrorAbout(a + share * way, svd) > 4e-15 * (1.0 + chain_.characteristicLength())) return false;
     }
     return true;
   }
 
  private:
+  /// What is left of the error where the directions that are not weak have made good what they can: the weakest one is
+  /// always one. `svd` of the task Jacobian near q.
+  double leastErrorAbout(VectorX q, const Svd& svd) const {
+    constexpr int kSteps = 3;
+    const VectorX& sigma = svd.singularValues();
+    const Eigen::Index strong = std::min<Eigen::Index>((sigma.array() > 1e-4 * sigma[0]).count(), sigma.size() - 1);
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= kSteps; ++k) {
+      const Pose tip = forwardKinematics(chain_, q);
+      const TaskError error = taskError(ik_.task(), target_, tip);
+      least = std::min(least, error.norm());
+      const VectorX along = svd.matrixU().leftCols(strong).transpose() * ik_.task().select(error.twist, tip.R);
+      q += svd.matrixV().leftCols(strong) * along.cwiseQuotient(sigma.head(strong));
+    }
+    return least;
+  }
+
   void note(const std::string& text) {
     if (verdict_.message.empty()) verdict_.message = text;
   }
@@ -230,14 +249,17 @@ class IkGate {
     const double t = -2.0 * sigma / kappa;
     if (!(std::abs(t) < 0.1)) return false;
     VectorX mate = q_ + t * n;
+    double last_step = 0.0;
     for (int k = 0; k < 30; ++k) {
       const VectorX error = residual(mate);
       const VectorX step = taskJacobian(chain_, mate, ik_.task()).fullPivLu().solve(error);
-      if (!step.allFinite() || step.norm() > 0.1) return false;
+      last_step = step.norm();
+      if (!(last_step <= 0.1)) return false;
       mate += step;
     }
     const double apart = jointDifference(chain_, mate, q_);
     if (!(residual(mate).norm() < 1e-13 && apart > 4e-6 && apart < 0.2)) return false;
+    if (last_step > 0.1 * apart) return false;  // Where there is no root Newton's method goes to and fro.
     if (!ignore_limits_ && chain_.clamped(mate) != mate) return false;
     const double tolerance = std::min(placeTolerance(chain_, ik_.task(), mate), 0.4 * apart);
     if (isKnown(mate, result, tolerance)) return false;

@@ -121,6 +121,44 @@ TEST(AlmostSingular, ADoubleRootIsNotGivenUpForOthersBesideIt) {
   EXPECT_TRUE(verdict.isLawful() && !verdict.lost) << verdict.message;
 }
 
+/// Places from which Newton's method goes to and fro beside a root that rounding has taken out of the real numbers
+/// (checked with 64 bits of mantissa: none is there), and two roots between which the pose is met to rounding.
+TEST(AlmostSingular, WhatThePoseDoesNotTellApartIsOne) {
+  const std::vector<std::pair<const char*, std::vector<double>>> poses = {
+      {"puma560",
+       {-1.2151808341216537, -1.5707963257948965, 1.6177742441429797, -0.60743510304228154, 1.4891127844426042,
+        2.4532784400765602}},
+      {"ur10e",
+       {1.4691135140519398, -0.64632344466069702, 3.1330254227916692, -2.1832256808708776, 2.8485296437570033,
+        -2.6801969458253256}},
+      {"ur10e",
+       {0.02122215167201702, -1.029603045895737, -1.3315352190102667, 0.075393375932659268, -3.1292546929314673,
+        -1.3992965019640029}}};
+  for (const auto& [name, values] : poses) {
+    const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, name);
+    const InverseKinematics ik(robot.chain, robot.task);
+    const VectorX q = Eigen::Map<const VectorX>(values.data(), static_cast<Eigen::Index>(values.size()));
+    const GateVerdict verdict = IkGate(ik, q, true).judge(VectorX::LinSpaced(6, 8e-4, -5e-4));
+    EXPECT_TRUE(verdict.isLawful() && verdict.complete) << name << ": " << verdict.message;
+  }
+}
+
+TEST(AlmostSingular, TheGateTellsTwoSolutionsThatAlmostMeet) {
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "rrr_planar");
+  const InverseKinematics ik(robot.chain, robot.task);
+  for (double elbow : {2e-6, 2e-5, 1e-3}) {
+    VectorX q(3);
+    q << 0.3, elbow, -0.4;
+    const IkGate gate(ik, q, true);
+    const IkResult result = ik.solve(gate.request());
+    ASSERT_EQ(result.solutions.size(), 2u) << elbow;
+    const VectorX& nearer = result.solutions[0].position;
+    const VectorX& farther = result.solutions[1].position;
+    EXPECT_FALSE(gate.isSameToRounding(nearer, farther)) << elbow;
+    EXPECT_TRUE(gate.isSameToRounding(nearer, nearer)) << elbow;
+  }
+}
+
 /// Turns joint 5 until axis 6 is in line with axis 4; false where it cannot.
 bool alignWrist(const SerialChain& chain, VectorX& q) {
   const Vector3& h4 = chain.axes()[3].direction;
