@@ -56,19 +56,19 @@ void AlgebraicSolver::solve(const Pose& target, AlgebraicSolutions& solutions, b
     solutions.degenerate = !solutions.complete;
     return;
   }
-  bool clean = false;
   bool vanishing = true;
-  // Solutions that are not double come in pairs: an odd number is reason to look again.
-  for (const std::shared_ptr<const HiddenTurn>& turn : self.hidden.usable) {
-    const Eliminated result = turn->solve(target, refiner);
-    vanishing = vanishing && result == Eliminated::kVanishing;
-    solutions.complete = solutions.complete || result == Eliminated::kAll;
-    clean = result == Eliminated::kAll && solutions.count % 2 == 0;
-    if (clean) break;
-  }
-  for (const std::shared_ptr<const HiddenTurn>& turn : self.hidden.reserves) {
-    if (clean || vanishing || (solutions.complete && solutions.count % 2 == 0)) break;
-    turn->solve(target, refiner);
+  for (int round = 0; round < 2 && !solutions.complete; ++round) {
+    const int known = solutions.count;
+    for (const HiddenTurns* turns : {&self.hidden.usable, &self.hidden.reserves}) {
+      for (const std::shared_ptr<const HiddenTurn>& turn : *turns) {
+        const Eliminated result = turn->solve(target, refiner);
+        vanishing = vanishing && result == Eliminated::kVanishing;
+        solutions.complete = result == Eliminated::kAll;
+        if (solutions.complete) break;
+      }
+      if (solutions.complete || vanishing) break;
+    }
+    if (solutions.count == known) break;
   }
   if (find_continua) refiner.findContinua();
   solutions.degenerate = solutions.degenerate || vanishing;

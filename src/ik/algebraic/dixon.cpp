@@ -31,6 +31,9 @@ constexpr double kLeastCrowded = 0.5;  ///< Below it roots are not spread.
 constexpr double kLargestStretch = 20.0;
 constexpr double kAround = 0.3;  ///< [rad] beside the center, which may be a root itself.
 
+constexpr double kTwoRoots = 1e-6;  ///< Of the largest singular value: the second smallest where two roots are.
+constexpr double kClear = 1e-3;     ///< What rounding does to a double root is less.
+
 using Monomials = Eigen::Matrix<double, 3, 2>;  ///< (1, x, x^2) times (1, y), in the rows and columns.
 
 Monomials monomialsOf(const Vector6& v) {
@@ -50,6 +53,62 @@ std::array<Eigen::Vector2d, 2> binaryRoots(double a, double b, double c) {
   const double root = std::sqrt(std::max(b * b - 4.0 * a * c, 0.0));
   const double q = -0.5 * (b + std::copysign(root, b));
   return {{{q, a}, {c, q}}};
+}
+
+/// Of the vectors s u + t v those that are monomials: all that vanishes for these are quadratic forms in s and t, and
+/// where there are two such vectors, multiples of one form.
+class MonomialPlane {
+ public:
+  MonomialPlane(const Monomials& u, const Monomials& v) : u_(u), v_(v) {
+    Forms forms;
+    Eigen::Index count = 0;
+    const auto add = [&](Eigen::Index i, Eigen::Index j, Eigen::Index k, Eigen::Index l) {  // m_i m_j - m_k m_l
+      const auto at = [](const Monomials& m, Eigen::Index place) { return m(place / 2, place % 2); };
+      forms.col(count++) << at(u, i) * at(u, j) - at(u, k) * at(u, l),
+          at(u, i) * at(v, j) + at(v, i) * at(u, j) - at(u, k) * at(v, l) - at(v, k) * at(u, l),
+          at(v, i) * at(v, j) - at(v, k) * at(v, l);
+    };
+    add(0, 3, 1, 2);  // Of 1, y, x, x y, x^2, x^2 y: all pairs with the same product.
+    add(2, 5, 3, 4);
+    add(0, 5, 1, 4);
+    add(0, 5, 2, 3);
+    add(0, 4, 2, 2);
+    add(1, 5, 3, 3);
+    Eigen::Index largest = 0;
+    const double square = forms.colwise().squaredNorm().maxCoeff(&largest);
+    form_ = forms.col(largest);
+    clarity_ = std::sqrt(square);
+    agree_ = (forms - form_ * (form_.transpose() * forms) / square).norm() < kClear * clarity_;
+  }
+
+  /// How well the two are told; 0: the whole plane looks like monomials.
+  double clarity() const { return clarity_; }
+
+  bool isClearlyComplex() const {
+    const double discriminant = form_[1] * form_[1] - 4.0 * form_[0] * form_[2];
+    return agree_ && clarity_ > kClear && discriminant < -kClear * form_.squaredNorm();
+  }
+
+  std::array<Monomials, 2> monomials() const {
+    const std::array<Eigen::Vector2d, 2> weights = binaryRoots(form_[0], form_[1], form_[2]);
+    return {{weights[0][0] * u_ + weights[0][1] * v_, weights[1][0] * u_ + weights[1][1] * v_}};
+  }
+
+ private:
+  using Forms = Eigen::Matrix<double, 3, 6>;
+
+  Monomials u_;
+  Monomials v_;
+  Eigen::Vector3d form_;
+  double clarity_ = 0.0;
+  bool agree_ = false;
+};
+
+/// A left null vector, (1, y) times (1, z, z^2), as a right one.
+Vector6 transposed(const Vector6& v) {
+  Vector6 w;
+  w << v[0], v[3], v[1], v[4], v[2], v[5];
+  return w;
 }
 
 /// z where equations that are linear in it have the common root: two columns that are multiples of each other.
@@ -167,41 +226,42 @@ bool DixonPencil::vanishes() const {
 
 std::array<JointParameter, 3> DixonPencil::unknownsAt(double angle) const {
   const NullVectors null = nullVectorsOf(at(std::cos(angle), std::sin(angle)));
-  Vector6 left;  // (1, y) times (1, z, z^2), transposed.
-  left << null.left[0], null.left[3], null.left[1], null.left[4], null.left[2], null.left[5];
   std::array<JointParameter, 3> unknowns;
-  splitMonomials(monomialsOf(left), unknowns[2], unknowns[1]);
+  splitMonomials(monomialsOf(transposed(null.left)), unknowns[2], unknowns[1]);
   splitMonomials(monomialsOf(null.right), unknowns[0], unknowns[1]);
   return unknowns;
 }
 
-std::array<std::array<JointParameter, 3>, 2> DixonPencil::doubleUnknownsAt(
+std::optional<std::array<std::array<JointParameter, 3>, 2>> DixonPencil::doubleUnknownsAt(
     double angle, const LoopSystem::Coefficients& equations) const {
-  const Eigen::JacobiSVD<DixonMatrix> svd(at(std::cos(angle), std::sin(angle)), Eigen::ComputeFullV);
-  const Monomials u = monomialsOf(svd.matrixV().col(4));
-  const Monomials v = monomialsOf(svd.matrixV().col(5));
-  // s u + t v has rank one: of its minors, each a quadratic form in s and t, the largest.
-  Eigen::Vector3d form = Eigen::Vector3d::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const int k = (i + 1) % 3;
-    const Eigen::Vector3d minor(u(i, 0) * u(k, 1) - u(i, 1) * u(k, 0),
-                                u(i, 0) * v(k, 1) + v(i, 0) * u(k, 1) - u(i, 1) * v(k, 0) - v(i, 1) * u(k, 0),
-                                v(i, 0) * v(k, 1) - v(i, 1) * v(k, 0));
-    if (minor.squaredNorm() > form.squaredNorm()) form = minor;
-  }
+  const Eigen::JacobiSVD<DixonMatrix> svd(at(std::cos(angle), std::sin(angle)),
+                                          Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vector6 sigma = svd.singularValues();
+  const MonomialPlane right(monomialsOf(svd.matrixV().col(4)), monomialsOf(svd.matrixV().col(5)));
+  const MonomialPlane left(monomialsOf(transposed(svd.matrixU().col(4))),
+                           monomialsOf(transposed(svd.matrixU().col(5))));
+  // On one side the two may be the same.
+  const bool by_right = right.clarity() >= left.clarity();
+  const MonomialPlane& plane = by_right ? right : left;
+  if (sigma[4] < kTwoRoots * sigma[0] && sigma[3] > kClear * sigma[0] && plane.isClearlyComplex()) return std::nullopt;
   std::array<std::array<JointParameter, 3>, 2> both;
-  const std::array<Eigen::Vector2d, 2> weights = binaryRoots(form[0], form[1], form[2]);
+  const std::array<Monomials, 2> monomials = plane.monomials();
   for (std::size_t i = 0; i < 2; ++i) {
     std::array<JointParameter, 3>& unknowns = both[i];
-    splitMonomials(weights[i][0] * u + weights[i][1] * v, unknowns[0], unknowns[1]);
+    const std::size_t known = by_right ? 0 : 2;
+    splitMonomials(monomials[i], unknowns[known], unknowns[1]);
+    // Columns of x^i y^j z^k at 4 i + 2 j + k.
+    const int stride = by_right ? 4 : 1;
+    const int other = by_right ? 1 : 4;
     Eigen::Vector4d constant = Eigen::Vector4d::Zero();
     Eigen::Vector4d linear = Eigen::Vector4d::Zero();
-    for (int column = 0; column < 4; ++column) {
-      const double factor = unknowns[0][column / 2] * unknowns[1][column % 2];
-      constant += factor * equations.col(2 * column);
-      linear += factor * equations.col(2 * column + 1);
+    for (int place = 0; place < 4; ++place) {
+      const int column = stride * (place / 2) + 2 * (place % 2);
+      const double factor = unknowns[known][place / 2] * unknowns[1][place % 2];
+      constant += factor * equations.col(column);
+      linear += factor * equations.col(column + other);
     }
-    unknowns[2] = commonRoot(constant, linear);
+    unknowns[2 - known] = commonRoot(constant, linear);
   }
   return both;
 }

@@ -2,6 +2,7 @@
 #define SCREWLINE_SRC_IK_ALGEBRAIC_DIXON_H
 
 #include <array>
+#include <optional>
 
 #include "loop.h"
 #include "trigonometric.h"
@@ -36,9 +37,9 @@ class DixonPencil {
   /// The unknowns' parameters where the matrix is singular.
   std::array<JointParameter, 3> unknownsAt(double angle) const;
   /// The same where two roots share the angle, or almost: the monomials of both lie in the plane that the matrix all
-  /// but annihilates. `equations` are the system's there.
-  std::array<std::array<JointParameter, 3>, 2> doubleUnknownsAt(double angle,
-                                                                const LoopSystem::Coefficients& equations) const;
+  /// but annihilates. `equations` are the system's there. Empty where the roots are clearly complex.
+  std::optional<std::array<std::array<JointParameter, 3>, 2>> doubleUnknownsAt(
+      double angle, const LoopSystem::Coefficients& equations) const;
 
  private:
   std::array<DixonMatrix, 5> harmonics_;  ///< 1, cos, sin, cos 2, sin 2.

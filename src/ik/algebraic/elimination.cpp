@@ -27,8 +27,9 @@ class DixonCondition : public HiddenCondition {
   }
   std::array<std::optional<Vector6>, 2> bothAt(double angle) const override {
     const LoopSystem::Coefficients equations = system_.at({std::cos(0.5 * angle), std::sin(0.5 * angle)});
-    const std::array<std::array<JointParameter, 3>, 2> both = pencil_.doubleUnknownsAt(angle, equations);
-    return {{configurationOf(angle, both[0]), configurationOf(angle, both[1])}};
+    const auto both = pencil_.doubleUnknownsAt(angle, equations);
+    if (!both) return {};
+    return {{configurationOf(angle, (*both)[0]), configurationOf(angle, (*both)[1])}};
   }
 
  private:
@@ -58,7 +59,7 @@ Vector6 DixonCondition::configurationOf(double angle, const std::array<JointPara
 }  // namespace
 
 Eliminated Elimination::solve(const Pose& target, RootRefiner& refiner) const {
-  return HiddenTurn::solve(DixonCondition(*loop_, labelling_, target), refiner);
+  return HiddenTurn::solve(DixonCondition(*loop_, labelling_, target), *loop_, labelling_.hidden(), refiner);
 }
 
 double Elimination::errorAt(const Pose& target, const Vector6& q) const {

@@ -5,17 +5,16 @@
 #include <random>
 
 #include "screwline/kinematics/forward.h"
+#include "screwline/spatial/rotation.h"
 
 namespace screwline {
 namespace {
 
 constexpr double kLargestNoise = 1e-5;  ///< Of the polynomial's coefficients.
-constexpr double kLeastNoise = 1e-9;    ///< Above it, a root that leads nowhere may do so by rounding.
 constexpr int kProbes = 8;              ///< Values of the hidden joint where all of them are roots.
 constexpr int kTrials = 32;
 constexpr double kUsable = 1e-2;  ///< [rad] error of the worst trial but three.
 constexpr std::size_t kMostUsed = 3;
-constexpr double kDouble = 0.1;  ///< Second derivative at a root of order two.
 
 HiddenTurns bestOf(std::vector<std::pair<double, std::shared_ptr<const HiddenTurn>>> ranked) {
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -26,28 +25,56 @@ HiddenTurns bestOf(std::vector<std::pair<double, std::shared_ptr<const HiddenTur
   return best;
 }
 
-/// What a root of the polynomial led to.
-struct RootFound {
-  int place = -1;          ///< Of the solution among all; -1: none.
-  bool has_other = false;  ///< A second one.
-  int at_infinity = 0;     ///< Of both ways, those with a slide at infinity.
+/// Roots of the polynomial that are not told apart, and what they led to.
+struct RootsFound {
+  RootCluster roots;
+  double angle = 0.0;     ///< Of the hidden turn, at the disk's center.
+  int nowhere = 0;        ///< Of the ways that were tried, those to no configuration.
+  int accounted_for = 0;  ///< By the known solutions whose hidden turn is there.
+  bool told = true;       ///< False: by one of them, nobody knows for how many.
 };
 
-/// A double root of the hidden angle stands for two solutions, one of them or both at infinity maybe; or for one that
-/// is double itself, or for none.
-bool isExplained(const TrigonometricPolynomial& polynomial, double image, const RootFound& found,
-                 const RootRefiner& refiner) {
-  if (found.at_infinity > 0) {
-    const bool two = found.at_infinity == 2 || found.place >= 0;
-    return two && std::abs(polynomial.derivatives(image)[2]) > kDouble;
+/// Solutions at one place of the hidden turn.
+class AtHiddenTurn {
+ public:
+  AtHiddenTurn(const CircleMap& map, const Loop& loop, int hidden)
+      : map_(map), joint_(static_cast<std::size_t>(hidden)), multiplier_(loop.multipliers[hidden]) {}
+
+  void account(const RootRefiner& refiner, RootsFound& found) const {
+    found.accounted_for = 0;
+    found.told = true;
+    const AlgebraicSolutions& all = refiner.solutions();
+    for (int place = 0; place < all.count; ++place) {
+      if (!isIn(found, multiplier_ * all.q[static_cast<std::size_t>(place)][joint_])) continue;
+      const int multiplicity = found.roots.multiplicity == 1 ? 1 : refiner.multiplicity(place);
+      if (multiplicity == 0) found.told = false;
+      found.accounted_for += multiplicity;
+    }
   }
-  if (found.place < 0) return polynomial.noise < kLeastNoise;
-  return found.has_other || !refiner.isRegular(found.place);
+
+ private:
+  bool isIn(const RootsFound& found, double angle) const {
+    // The map's inverse moves nothing by more than its stretch.
+    if (std::abs(withoutTurns(angle - found.angle)) > found.roots.radius * map_.stretch) return false;
+    return std::abs(withoutTurns(map_.image(angle) - found.roots.angle)) <= found.roots.radius;
+  }
+
+  CircleMap map_;
+  std::size_t joint_;
+  double multiplier_;
+};
+
+/// Whether the known solutions are all that the roots stand for.
+bool isExplained(const RootsFound& found) {
+  const int roots = found.roots.multiplicity;
+  if (found.nowhere > 0) return roots == 2 && found.told && found.accounted_for + found.nowhere == roots;
+  // Of no multiple solution there are less than two.
+  return found.told ? roots > 0 && found.accounted_for == roots : roots == 2 && found.accounted_for == 0;
 }
 
 }  // namespace
 
-Eliminated HiddenTurn::solve(const HiddenCondition& condition, RootRefiner& refiner) {
+Eliminated HiddenTurn::solve(const HiddenCondition& condition, const Loop& loop, int hidden, RootRefiner& refiner) {
   const CircleMap map = condition.spread();
   const TrigonometricPolynomial polynomial = condition.polynomial(map);
   const bool vanishing = polynomial.scale == 0.0 || polynomial.noise > kLargestNoise || condition.vanishes();
@@ -60,33 +87,25 @@ Eliminated HiddenTurn::solve(const HiddenCondition& condition, RootRefiner& refi
     }
     if (vanishing) return Eliminated::kVanishing;
   }
+  const AtHiddenTurn there(map, loop, hidden);
   bool all_found = !roots.overflow && !condition.isIllConditioned();
-  std::array<bool, AlgebraicSolutions::kCapacity> taken{};
   for (int i = 0; i < roots.count; ++i) {
-    const TrigonometricRoots::Root& root = roots.roots[static_cast<std::size_t>(i)];
-    const double angle = map.angle(root.angle);
-    const std::optional<Vector6> q = condition.configurationAt(angle);
-    if (!q && !root.touching) continue;
-    RootFound found;
-    found.place = q ? refiner.add(*q) : -1;
-    const auto isNew = [&taken](int place) { return place >= 0 && !taken[static_cast<std::size_t>(place)]; };
-    if (root.touching || !isNew(found.place)) {
-      for (const std::optional<Vector6>& one : condition.bothAt(angle)) {
-        found.at_infinity += one ? 0 : 1;
-        if (!one) continue;
-        const int other = refiner.add(*one);
-        found.has_other = found.has_other || (other >= 0 && found.place >= 0 && other != found.place);
-        if (isNew(other) || found.place < 0) found.place = other;
+    RootsFound found;
+    found.roots = roots.roots[static_cast<std::size_t>(i)];
+    found.angle = map.angle(found.roots.angle);
+    const bool multiple = found.roots.multiplicity != 1;
+    const std::optional<Vector6> q = condition.configurationAt(found.angle);
+    if (!q && !multiple) continue;
+    if (q) refiner.add(*q);
+    there.account(refiner, found);
+    if (multiple || found.accounted_for == 0) {
+      for (const std::optional<Vector6>& one : condition.bothAt(found.angle)) {
+        found.nowhere += one ? 0 : 1;
+        if (one) refiner.add(*one);
       }
+      there.account(refiner, found);
     }
-    if (root.touching) {
-      all_found = all_found && isExplained(polynomial, root.angle, found, refiner) &&
-                  !condition.leavesFree(angle, found.at_infinity > 0);
-    } else if (isNew(found.place)) {
-      taken[static_cast<std::size_t>(found.place)] = true;
-    } else {
-      all_found = false;
-    }
+    all_found = all_found && isExplained(found) && !(multiple && condition.leavesFree(found.angle, found.nowhere > 0));
   }
   return all_found ? Eliminated::kAll : Eliminated::kUncertain;
 }

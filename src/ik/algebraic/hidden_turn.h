@@ -33,11 +33,11 @@ class HiddenCondition {
   /// Whether the other joints are hardly told by this one, whatever its angle.
   virtual bool isIllConditioned() const = 0;
   /// Whether the angle, as well as a multiple root tells it, leaves some of the other joints free: any number of
-  /// solutions may share it. Of slides it is not asked where roots at infinity account for it.
-  virtual bool leavesFree(double angle, bool at_infinity) const = 0;
+  /// solutions may share it. Of slides it is not asked where roots that lead nowhere account for it.
+  virtual bool leavesFree(double angle, bool nowhere) const = 0;
   /// Joint values at a root, or next to one; empty where a slide is at infinity.
   virtual std::optional<Vector6> configurationAt(double angle) const = 0;
-  /// The same where two roots share the angle, or almost.
+  /// The same where two roots share the angle, or almost; empty also where they are complex.
   virtual std::array<std::optional<Vector6>, 2> bothAt(double angle) const = 0;
 };
 
@@ -54,7 +54,8 @@ class HiddenTurn {
   virtual std::string words(const SerialChain& chain) const = 0;
 
  protected:
-  static Eliminated solve(const HiddenCondition& condition, RootRefiner& refiner);
+  /// Every cluster of roots has to have as many solutions as roots, whichever joint's angle they were found by.
+  static Eliminated solve(const HiddenCondition& condition, const Loop& loop, int hidden, RootRefiner& refiner);
   static double errorAt(const HiddenCondition& condition, const Loop& loop, int hidden, const Vector6& q);
 };
 

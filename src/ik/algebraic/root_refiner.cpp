@@ -17,6 +17,7 @@ constexpr double kAccepted = 1e-11;      ///< Error of a solution.
 constexpr double kExact = 2e-15;         ///< Error that is rounding.
 constexpr double kNoise = 8.0 * kExact;  ///< Error that steps may fail to lessen.
 constexpr double kNearlyExact = 1e-13;   ///< Error that a step of any kind takes to rounding.
+constexpr double kHalfWay = 1e-14;       ///< Error above which a solution may stand between two.
 constexpr double kLongestStep = 0.5;     ///< [rad], [lengths] of Newton's method.
 constexpr double kShortStep = 1e-8;      ///< [rad], [lengths] If it gains nothing, what is left is rounding.
 constexpr double kLinear = 0.05;         ///< Of the error: Newton's method leaves less, but where solutions meet.
@@ -24,10 +25,11 @@ constexpr double kSame = 1e-6;           ///< [rad], [m] or [lengths]
 constexpr double kMaybeSame = 1e-3;      ///< Closer than this, the middle decides.
 constexpr double kNearSingular = 1e-3;   ///< Pivot ratio below which a mate is looked for.
 constexpr double kFarthestMate = 0.5;    ///< [rad], [lengths]
-constexpr double kRegular = 1e-3;        ///< Least over largest singular value above which a solution is not double.
+constexpr double kDouble = 1e-5;         ///< Least over largest singular value: of two that are apart by kSame, or by
+                                         ///< what rounding hides, it is below 1e-6.
+constexpr double kBent = 1e-3;           ///< Second derivative of the residual at a fold: of more, third ones are less.
 constexpr double kSingular = 1e-6;       ///< Singular value below which a continuum is looked for.
 constexpr double kContinuumStep = 1e-2;  ///< [rad], [lengths]
-constexpr double kBent = 1e-3;           ///< Second derivative of the residual where there is no continuum.
 
 Vector3 smallRotationVector(const Matrix3& R) {
   const Vector3 twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
@@ -74,7 +76,8 @@ RootRefiner::Fold RootRefiner::foldAt(const Vector6& q, const Point& point) cons
   fold.u = weak.U.col(1);
   fold.n = weak.V.col(1);
   fold.sigma = weak.sigma[1];
-  fold.is_only_one = weak.sigma[0] > kRegular * weak.largest;
+  fold.largest = weak.largest;
+  fold.is_only_one = weak.sigma[0] > kNearSingular * weak.largest;
   Point probe;
   evaluate(q + (kProbe * fold.n).cwiseProduct(unit_), probe);
   fold.bend = (probe.J - point.J) * fold.n / kProbe;
@@ -192,20 +195,35 @@ bool RootRefiner::isSame(const Vector6& a, const Vector6& b) const {
   return point.error <= kNoise * farthest;
 }
 
-bool RootRefiner::isRegular(int place) const {
+int RootRefiner::multiplicity(int place) const {
+  const auto solution = [this](int i) -> Vector6 {
+    return Eigen::Map<const Vector6>(solutions_.q[static_cast<std::size_t>(i)].data());
+  };
+  const Vector6 q = solution(place);
   Point point;
-  evaluate(Eigen::Map<const Vector6>(solutions_.q[static_cast<std::size_t>(place)].data()), point);
-  const SmallVector sigma = SmallSvd(point.J).sigma;
-  return sigma[5] > kRegular * sigma[0];
+  evaluate(q, point);
+  if (nullVectorsOf(point.J).pivot_ratio > kNearSingular) return 1;
+  const Fold fold = foldAt(q, point);
+  if (fold.sigma > kDouble * fold.largest) return 1;
+  if (!fold.is_only_one || std::abs(fold.kappa) < kBent) return 0;
+  int beside = 0;
+  for (int i = 0; i < solutions_.count; ++i) {
+    if (i != place && difference(q, solution(i)).norm() < kMaybeSame) ++beside;
+  }
+  return beside > 1 ? 0 : 2 - beside;
 }
 
-int RootRefiner::insert(const Vector6& q) {
-  for (int i = 0; i < solutions_.count; ++i) {
-    if (isSame(q, Eigen::Map<const Vector6>(solutions_.q[static_cast<std::size_t>(i)].data()))) return i;
-  }
+bool RootRefiner::isKnown(const Vector6& q) const {
+  return std::any_of(solutions_.begin(), solutions_.end(), [&](const std::array<double, 6>& known) {
+    return isSame(q, Eigen::Map<const Vector6>(known.data()));
+  });
+}
+
+void RootRefiner::insert(const Vector6& q) {
+  if (isKnown(q)) return;
   if (solutions_.count == static_cast<int>(solutions_.q.size())) {
     solutions_.degenerate = true;
-    return -1;
+    return;
   }
   std::array<double, 6>& place = solutions_.q[static_cast<std::size_t>(solutions_.count++)];
   for (std::size_t i = 0; i < 6; ++i) {
@@ -213,28 +231,36 @@ int RootRefiner::insert(const Vector6& q) {
     const double value = q[static_cast<Eigen::Index>(i)];
     place[i] = axis.prismatic ? value : wrapAngle(value * axis.multiplier) / axis.multiplier;
   }
-  return solutions_.count - 1;
 }
 
-int RootRefiner::add(Vector6 q) {
-  if (!q.allFinite() || q.cwiseAbs().maxCoeff() > kMaxMagnitude) return -1;
+void RootRefiner::add(Vector6 q) {
+  if (!q.allFinite() || q.cwiseAbs().maxCoeff() > kMaxMagnitude) return;
   Point point;
-  if (!refine(q, point)) return -1;
-  const int known = solutions_.count;
-  const int place = insert(q);
-  if (place == known) addMate(q, point);
-  return place;
+  if (!refine(q, point) || isKnown(q)) return;
+  if (nullVectorsOf(point.J).pivot_ratio > kNearSingular) {
+    insert(q);
+  } else {
+    addFold(q, point);
+  }
 }
 
-/// The residual along the fold vanishes at zero and once more.
-void RootRefiner::addMate(const Vector6& q, const Point& point) {
-  if (nullVectorsOf(point.J).pivot_ratio > kNearSingular) return;
+/// The residual of a fold vanishes twice, once at q; or on both sides of it, where Newton's method has stopped half way
+/// between two.
+void RootRefiner::addFold(const Vector6& q, const Point& point) {
   const Fold fold = foldAt(q, point);
-  const double t = -2.0 * fold.sigma / fold.kappa;
-  if (!(std::abs(t) < kFarthestMate && std::abs(t) > 0.1 * kSame)) return;
-  Vector6 mate = q + (t * fold.n).cwiseProduct(unit_);
-  Point at_mate;
-  if (refine(mate, at_mate)) insert(mate);
+  const double left = fold.u.dot(point.residual);
+  const double root = std::sqrt(fold.sigma * fold.sigma + 2.0 * fold.kappa * left);
+  const double sum = fold.sigma + root;
+  bool itself = true;
+  for (const double t : {2.0 * left / sum, -sum / fold.kappa}) {
+    if (!(std::abs(t) > kSame && std::abs(t) < kFarthestMate)) continue;
+    Vector6 other = q + (t * fold.n).cwiseProduct(unit_);
+    Point there;
+    if (!refine(other, there)) continue;
+    itself = itself && (point.error <= kHalfWay || there.error > point.error || isSame(other, q));
+    insert(other);
+  }
+  if (itself) insert(q);
 }
 
 bool RootRefiner::continues(const Vector6& q, const Vector6& direction) const {

@@ -13,10 +13,11 @@ class RootRefiner {
 
   /// Newton's method, verification, comparison with what is there. A solution that is almost singular brings the one
   /// that it almost meets.
-  /// Returns its place in the set, new or known; -1 where there is no solution near.
-  int add(Vector6 q);
-  /// Whether no other solution is about to meet the one at `place`.
-  bool isRegular(int place) const;
+  void add(Vector6 q);
+  const AlgebraicSolutions& solutions() const { return solutions_; }
+  /// How many solutions the one at `place` is: 1 where it is regular, 2 at a fold unless the other one is known as
+  /// well; 0: any number from 2 on.
+  int multiplicity(int place) const;
   /// Looks for self-motions through the solutions that are singular, and sets `degenerate`.
   void findContinua();
 
@@ -33,6 +34,7 @@ class RootRefiner {
     Vector6 n;  ///< [rad], [lengths]
     Vector6 bend;
     double sigma = 0.0;
+    double largest = 0.0;      ///< Of the singular values.
     double kappa = 0.0;        ///< u . bend
     bool is_only_one = false;  ///< No other direction is almost lost.
   };
@@ -48,12 +50,13 @@ class RootRefiner {
   void evaluate(const Vector6& q, Point& point) const;
   bool undampedStep(const Vector6& q, const Point& point, Convergence& so_far, Vector6& step) const;
   bool refine(Vector6& q, Point& point) const;
-  int insert(const Vector6& q);
+  bool isKnown(const Vector6& q) const;
+  void insert(const Vector6& q);
   bool isSame(const Vector6& a, const Vector6& b) const;
   Vector6 difference(const Vector6& to, const Vector6& from) const;
   Fold foldAt(const Vector6& q, const Point& point) const;
   static bool stepAcross(const Point& point, const Fold& fold, Vector6& step);
-  void addMate(const Vector6& q, const Point& point);
+  void addFold(const Vector6& q, const Point& point);
   bool continues(const Vector6& q, const Vector6& direction) const;
 
   const SerialChain& chain_;

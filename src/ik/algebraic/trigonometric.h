@@ -20,14 +20,16 @@ struct CircleMap {
   double slope(double image) const;
 };
 
-/// Angles that are held together in one place: real roots, and where the polynomial comes closer to zero than its
-/// noise.
+/// Roots that noise does not tell apart: as many, real or not, lie in a disk of the complex plane.
+struct RootCluster {
+  double angle = 0.0;    ///< The disk's center; of a simple root it is the root.
+  double radius = 0.0;   ///< [rad]
+  int multiplicity = 0;  ///< 0: that many are not told.
+};
+
+/// Held together in one place. All real roots are in the disks.
 struct TrigonometricRoots {
-  struct Root {
-    double angle = 0.0;
-    bool touching = false;  ///< A double root, or two, or none: within noise.
-  };
-  std::array<Root, 48> roots{};
+  std::array<RootCluster, 48> roots{};
   int count = 0;
   bool overflow = false;
 };
@@ -44,12 +46,24 @@ struct TrigonometricPolynomial {
   /// All real roots in [0, 2 pi), by subdivision with a bound on the remainder of Taylor's series: none is passed over
   /// that is farther than noise from being double.
   TrigonometricRoots realRoots() const;
+  /// The roots about x: the smallest disk in which one term of Taylor's series outweighs all others and the noise, so
+  /// that it holds as many roots as that term's degree (Rouche's theorem).
+  RootCluster clusterAt(double x) const;
+  /// Noise of a value, generously.
+  double tolerance() const;
 
   std::array<double, kTrigonometricDegree + 1> c{};
   std::array<double, kTrigonometricDegree + 1> s{};
   int degree = kTrigonometricDegree;
   double scale = 0.0;  ///< What all coefficients were divided by; 0: the polynomial is zero, or not finite.
   double noise = 0.0;  ///< Largest coefficient that should be zero.
+
+ private:
+  using Taylor = std::array<double, 10>;  ///< For clusters of up to 8 roots, and the remainder.
+
+  Taylor taylor(double x) const;
+  int outweighing(const Taylor& terms, double radius) const;
+  RootCluster smallestDisk(const Taylor& terms, double x, int degree_there) const;
 };
 
 }  // namespace screwline

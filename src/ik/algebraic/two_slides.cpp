@@ -14,6 +14,7 @@ constexpr double kFirstSample = 0.05;  ///< [rad] Where no arm's axes come into 
 constexpr double kAtInfinity = 1e6;    ///< [lengths] of a slide.
 constexpr double kInLine = 2e-3;       ///< [rad] between axes: as well as a multiple root tells it.
 constexpr double kParallel = 1e-4;     ///< [rad] between slides, or axes that are never in line.
+constexpr double kComplex = 1e-3;  ///< Of the amplitude: no rounding, nor a multiple root's, makes w imaginary so far.
 constexpr int kVanishingSamples = 7;
 constexpr double kVanishing = 1e-13;
 
@@ -237,6 +238,7 @@ std::optional<Vector6> PlaneCondition::configurationAt(double angle) const {
 
 std::array<std::optional<Vector6>, 2> PlaneCondition::bothAt(double angle) const {
   const Branches branches = at(angle);
+  if (branches.square < -kComplex * amplitude()) return {};
   const double w = std::sqrt(std::max(branches.square, 0.0));
   return {{configuration(angle, branches, w), configuration(angle, branches, -w)}};
 }
@@ -244,7 +246,7 @@ std::array<std::optional<Vector6>, 2> PlaneCondition::bothAt(double angle) const
 }  // namespace
 
 Eliminated TwoSlides::solve(const Pose& target, RootRefiner& refiner) const {
-  return HiddenTurn::solve(PlaneCondition(*loop_, hidden_, target), refiner);
+  return HiddenTurn::solve(PlaneCondition(*loop_, hidden_, target), *loop_, hidden_, refiner);
 }
 
 double TwoSlides::errorAt(const Pose& target, const Vector6& q) const {
