@@ -111,6 +111,12 @@ inline SerialChain generalArm(ArmMaker& maker, int slide) {
   return ArmMaker::chain(axes, maker.pose(), maker.pose());
 }
 
+/// An axis along a base axis, of either sense, its point a few steps of 0.1 m from that of the axis before.
+inline Axis latticeAxis(ArmMaker& maker, const Axis& before) {
+  const Vector3 step(maker.index(5) - 2, maker.index(5) - 2, maker.index(5) - 2);
+  return ArmMaker::turn(maker.sign() * Vector3::Unit(maker.index(3)), before.point + 0.1 * step);
+}
+
 /// Four turns and two slides in general position.
 inline SerialChain twoSlideArm(ArmMaker& maker) {
   std::vector<Axis> axes = generalArm(maker, 1).axes();

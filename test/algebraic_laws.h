@@ -43,6 +43,15 @@ inline VectorX randomConfiguration(ArmMaker& maker, const SerialChain& chain) {
   return q;
 }
 
+/// Turns at multiples of right angles, slides at steps of 0.1 m.
+inline VectorX latticeConfiguration(ArmMaker& maker, const SerialChain& chain) {
+  VectorX q(chain.size());
+  for (int i = 0; i < chain.size(); ++i) {
+    q[i] = chain.joint(i).isRevolute() ? 0.5 * kPi * (maker.index(4) - 1) : 0.1 * (maker.index(9) - 4);
+  }
+  return q;
+}
+
 /// Laws of every answer: the pose is reached, nothing is there twice, all is finite.
 inline void expectLawful(const SerialChain& chain, const Pose& target, const AlgebraicSolutions& solutions) {
   for (int i = 0; i < solutions.count; ++i) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <string>
 
@@ -8,6 +9,8 @@
 #include "algebraic_laws.h"
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/model/urdf_reader.h"
+#include "screwline/kinematics/singularity.h"
+#include "screwline/spatial/svd.h"
 
 namespace screwline {
 namespace {
@@ -197,6 +200,40 @@ TEST(IkAlgebraic, TellsASelfMotion) {
     EXPECT_TRUE(solutions.degenerate);
     EXPECT_FALSE(solutions.complete);
   }
+}
+
+/// Arms on a lattice at multiples of right angles: several regular solutions share the hidden angle, or nearly all
+/// angles, whichever joint is hidden.
+TEST(IkAlgebraic, CallsNothingCompleteWhereSolutionsShareTheirAngles) {
+  test::ArmMaker maker(kSeed + 12);
+  AlgebraicSolutions solutions;
+  int asked = 0;
+  int complete = 0;
+  int lost = 0;
+  for (int arm = 0; arm < 150; ++arm) {
+    std::vector<Axis> axes;
+    Axis axis;
+    for (int i = 0; i < 6; ++i) axes.push_back(axis = test::latticeAxis(maker, axis));
+    if (arm % 3 == 0) axes[static_cast<std::size_t>(maker.index(6))].prismatic = true;
+    const SerialChain chain = test::ArmMaker::chain(axes, maker.pose(), Pose());
+    const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+    for (int i = 0; solver && i < 12; ++i) {
+      VectorX q = test::latticeConfiguration(maker, chain);
+      if (i % 3 == 0) q[maker.index(6)] = maker.uniform(-3.1, 3.1);
+      if (singularValues(taskJacobian(chain, q, Task())).minCoeff() < 1e-3) continue;
+      const Pose target = forwardKinematics(chain, q);
+      solver->solve(target, solutions);
+      expectLawful(chain, target, solutions);
+      const bool missing = nearest(chain, solutions, q) > 1e-6;
+      EXPECT_FALSE(missing && solutions.complete) << "arm " << arm << ", seed " << kSeed << ", q = " << q.transpose();
+      ++asked;
+      complete += solutions.complete ? 1 : 0;
+      lost += missing ? 1 : 0;
+    }
+  }
+  std::printf("%d regular poses, %d complete, %d lost\n", asked, complete, lost);
+  EXPECT_GT(complete, asked * 6 / 10);
+  EXPECT_LT(lost, asked / 30);
 }
 
 TEST(IkAlgebraic, IsDeterministic) {

@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <cstdio>
 
+#include "algebraic_arms.h"
 #include "algebraic_laws.h"
 #include "ik_gate.h"
 #include "screwline/ik/numerical/numerical_solver.h"
@@ -50,18 +51,13 @@ Axis specialAxis(test::ArmMaker& maker, const Axis& before) {
   }
 }
 
-Axis latticeAxis(test::ArmMaker& maker, const Axis& before) {
-  const Vector3 step(maker.index(5) - 2, maker.index(5) - 2, maker.index(5) - 2);
-  return test::ArmMaker::turn(maker.sign() * Vector3::Unit(maker.index(3)), before.point + 0.1 * step);
-}
-
 SerialChain makeChain(test::ArmMaker& maker, Geometry geometry, const std::array<int, 2>& slides) {
   std::vector<Axis> axes;
   Axis axis;
   for (int i = 0; i < 6; ++i) {
     axis = geometry == Geometry::kGeneral        ? test::ArmMaker::turn(maker.direction(), maker.vector(0.6))
            : geometry == Geometry::kSpecialPairs ? specialAxis(maker, axis)
-                                                 : latticeAxis(maker, axis);
+                                                 : test::latticeAxis(maker, axis);
     axes.push_back(axis);
     axes.back().prismatic = i == slides[0] || i == slides[1];
   }
@@ -182,6 +178,31 @@ TEST(IkTwoSlides, CallsNothingCompleteThatIsNotWhereAxesAreInLine) {
   }
   std::printf("%d poses, %d complete\n", asked, complete);
   EXPECT_GT(complete, asked / 2);
+}
+
+/// Where every turn is a multiple of a right angle several solutions share most of their angles, and axes are in line:
+/// as many solutions as roots are all. Most other such poses are members of continua.
+TEST(IkTwoSlides, SolutionsThatShareTheirAnglesAreCounted) {
+  test::ArmMaker maker(kSeed + 6);
+  AlgebraicSolutions solutions;
+  int regular = 0;
+  int complete = 0;
+  for (const std::array<int, 2>& slides : placesOfSlides()) {
+    for (int k = 0; k < 6; ++k) {
+      const SerialChain chain = makeChain(maker, Geometry::kLattice, slides);
+      const std::optional<AlgebraicSolver> solver = AlgebraicSolver::compile(chain);
+      for (int i = 0; solver && i < 20; ++i) {
+        const VectorX q = test::latticeConfiguration(maker, chain);
+        solver->solve(forwardKinematics(chain, q), solutions);
+        EXPECT_FALSE(solutions.complete && nearest(chain, solutions, q) > 1e-6) << q.transpose();
+        if (solutions.degenerate) continue;
+        ++regular;
+        complete += solutions.complete ? 1 : 0;
+      }
+    }
+  }
+  std::printf("%d poses not on continua, %d complete\n", regular, complete);
+  EXPECT_GT(complete, regular * 7 / 10);
 }
 
 TEST(IkTwoSlides, ParallelSlidesAreRefused) {

@@ -64,12 +64,14 @@ class AtHiddenTurn {
   double multiplier_;
 };
 
-/// Whether the known solutions are all that the roots stand for.
-bool isExplained(const RootsFound& found) {
+/// Whether the known solutions are all that the roots stand for. Of a pose beside this one all are isolated, and each
+/// stands for a root of its own: where they are as many, nothing else shares the angle.
+bool isExplained(const RootsFound& found, const HiddenCondition& condition) {
   const int roots = found.roots.multiplicity;
-  if (found.nowhere > 0) return roots == 2 && found.told && found.accounted_for + found.nowhere == roots;
+  if (found.told && roots > 0 && found.accounted_for == roots) return true;
+  if (roots != 2 || condition.leavesFree(found.angle, found.nowhere > 0)) return false;
   // Of no multiple solution there are less than two.
-  return found.told ? roots > 0 && found.accounted_for == roots : roots == 2 && found.accounted_for == 0;
+  return found.told ? found.nowhere > 0 && found.accounted_for + found.nowhere == roots : found.accounted_for == 0;
 }
 
 }  // namespace
@@ -105,7 +107,7 @@ Eliminated HiddenTurn::solve(const HiddenCondition& condition, const Loop& loop,
       }
       there.account(refiner, found);
     }
-    all_found = all_found && isExplained(found) && !(multiple && condition.leavesFree(found.angle, found.nowhere > 0));
+    all_found = all_found && isExplained(found, condition);
   }
   return all_found ? Eliminated::kAll : Eliminated::kUncertain;
 }
