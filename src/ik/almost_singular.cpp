@@ -51,4 +51,12 @@ bool completeAlmostSingular(const SerialChain& chain, const Task& task, const Po
   return told;
 }
 
+bool allAreTold(const SerialChain& chain, const Task& task, const Pose& target, const SolutionBuilder& builder,
+                const std::vector<IkAnswer>& answers) {
+  return std::all_of(answers.begin(), answers.end(), [&](const IkAnswer& answer) {
+    const WeakDirections* weak = isIsolated(answer) ? builder.weakDirectionsAt(answer.position) : nullptr;
+    return weak == nullptr || isTold(chain, task, target, answer.position, *weak);
+  });
+}
+
 }  // namespace screwline

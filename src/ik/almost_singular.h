@@ -13,6 +13,10 @@ namespace screwline {
 bool completeAlmostSingular(const SerialChain& chain, const Task& task, const Pose& target, double bound,
                             const SolutionBuilder& builder, std::vector<IkAnswer>& answers);
 
+/// The same question about a list to which nothing has to be added.
+bool allAreTold(const SerialChain& chain, const Task& task, const Pose& target, const SolutionBuilder& builder,
+                const std::vector<IkAnswer>& answers);
+
 }  // namespace screwline
 
 #endif  // SCREWLINE_SRC_IK_ALMOST_SINGULAR_H

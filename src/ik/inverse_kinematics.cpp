@@ -24,7 +24,6 @@ namespace screwline {
 namespace {
 
 constexpr int kClosestRestarts = 256;  // Starts for the best reachable configuration: fewer were seen to miss it.
-
 constexpr int kDoubtRestarts = 16;
 constexpr double kAlmostSingular = 1e-3;  // Manipulability, lengths in the chain's, below which solutions may meet.
 
@@ -181,10 +180,11 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vect
   for (IkAnswer& answer : answers) {
     if (chain.size() > task.size() && answer.self_motion.rows() == 0) describeRedundancy(chain, task, answer);
   }
-  if ((plan || completed || algebraic) && chain.size() == task.size()) {
-    const bool told = completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers);
-    result.indistinct = !told;
-    all = all && told;
+  if (isExact() && chain.size() == task.size()) {
+    result.indistinct = parallel
+                            ? !allAreTold(chain, task, request.target, builder, answers)
+                            : !completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers);
+    all = all && !result.indistinct;
   }
   for (IkAnswer& answer : answers) admit(request, std::move(answer), builder, result);
   return all;
@@ -356,7 +356,7 @@ bool InverseKinematics::Implementation::gather(const IkRequest& request, const S
   std::vector<Candidate> found = joinEqual(chain, candidates(request, builder, false, result));
   bool any = !found.empty();
   bool all = keep(request, std::move(found), builder, result);
-  if (!all && (parallel || completed)) {
+  if (!all && !result.indistinct && (parallel || completed)) {
     result.solutions.clear();
     result.outside_limits = 0;
     found = joinEqual(chain, candidates(request, builder, true, result));

@@ -29,8 +29,8 @@ constexpr double kMisplaced = 1e-4;   // [rad, m] No rounding moves a root of a 
 constexpr double kRecognised = 0.25;  // Of the way to the next root: what is nearer is this one.
 
 using Plane = Eigen::Vector2d;
-using Bordered = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 7>;
-using BorderedVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 7, 1>;
+using Bordered = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
+using BorderedVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
 
 /// Residual along the weak directions, r - s t - t^T K t / 2; the second component is that of the weakest.
 struct Reduced {
@@ -120,6 +120,11 @@ bool refine(TaskResidual& residual, const JointVector& q, double reach, TaskPoin
   return least <= kExact && (best - q).norm() <= reach;
 }
 
+Eigen::Index unknownsOf(const WeakDirections& weak) {
+  const Eigen::Index count = weak.sigma.size();
+  return count > 1 && weak.sigma[count - 2] < kTwiceSingular * weak.largest ? 2 : 1;
+}
+
 /// By differences of the Jacobian, which lose fewer digits than those of the residual.
 /// @pre unknowns is 1 or 2; with 1 the reduced quantities of the first are left zero.
 Reduced reducedAt(TaskResidual& residual, const TaskPoint& here, const WeakDirections& weak, Eigen::Index unknowns) {
@@ -157,17 +162,18 @@ bool areOne(TaskResidual& residual, const JointVector& a, const JointVector& b) 
   return middle.residual.norm() <= noiseOf(residual);
 }
 
-/// Whether the pose is met to rounding a good way along the weakest direction too: what the others can make up for is
-/// taken away, with the Jacobian bordered by its vectors, which is regular.
-bool isFlat(TaskResidual& residual, const TaskPoint& here, const WeakDirections& weak) {
+/// Whether the pose is met to rounding a good way along a weak direction too: what the strong ones can make up for is
+/// taken away, with the Jacobian bordered by the weak vectors, which is regular.
+bool isFlatAlong(TaskResidual& residual, const TaskPoint& here, const WeakDirections& weak, Eigen::Index unknowns,
+                 const SmallVector& direction) {
   const Eigen::Index n = here.q.size();
-  const auto u = weak.U.rightCols<1>();
-  const auto v = weak.V.rightCols<1>();
-  Bordered A(n + 1, n + 1);
-  A << here.J, u, v.transpose(), 0.0;
+  Bordered A = Bordered::Zero(n + unknowns, n + unknowns);
+  A.topLeftCorner(n, n) = here.J;
+  A.topRightCorner(n, unknowns) = weak.U.rightCols(unknowns);
+  A.bottomLeftCorner(unknowns, n) = weak.V.rightCols(unknowns).transpose();
   const Eigen::PartialPivLU<Bordered> across(A);
   TaskPoint point;
-  point.q = here.q + kFarAlong * v;
+  point.q = here.q + kFarAlong * direction;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMaxSteps; ++k) {
     residual.evaluateResidual(point);
@@ -175,11 +181,34 @@ bool isFlat(TaskResidual& residual, const TaskPoint& here, const WeakDirections&
     if (!(size < 0.5 * least)) return false;
     if (size <= noiseOf(residual)) return true;
     least = size;
-    BorderedVector right(n + 1);
-    right << point.residual, 0.0;
+    BorderedVector right = BorderedVector::Zero(n + unknowns);
+    right.head(n) = point.residual;
     point.q += across.solve(right).head(n);
   }
   return false;
+}
+
+/// The directions in the plane of two weak ones along which the more bent of the two components of the residual is
+/// straight.
+std::array<Plane, 2> straightDirections(const Reduced& reduced) {
+  const bool first = reduced.K[0].squaredNorm() > reduced.K[1].squaredNorm();
+  const Eigen::Matrix2d& K = reduced.K[first ? 0 : 1];
+  const double root = std::sqrt(std::max(K(0, 1) * K(0, 1) - K(0, 0) * K(1, 1), 0.0));
+  const double sum = -K(0, 1) - std::copysign(root, K(0, 1));
+  return {{Plane(sum, K(0, 0)).normalized(), Plane(K(1, 1), sum).normalized()}};
+}
+
+/// Whether it is so along the weakest direction, or of two along one in which neither component is bent.
+bool isFlat(TaskResidual& residual, const TaskPoint& here, const WeakDirections& weak, Eigen::Index unknowns,
+            const Reduced& reduced) {
+  const auto isStraight = [&reduced](const Plane& t) {
+    return std::hypot(t.dot(reduced.K[0] * t), t.dot(reduced.K[1] * t)) < kStraight;
+  };
+  if (isStraight(Plane::UnitY())) return isFlatAlong(residual, here, weak, unknowns, weak.V.rightCols<1>());
+  if (unknowns == 1) return false;
+  const std::array<Plane, 2> straight = straightDirections(reduced);
+  return std::any_of(straight.begin(), straight.end(),
+                     [&](const Plane& t) { return isStraight(t) && isFlatAlong(residual, here, weak, 2, weak.V * t); });
 }
 
 /// How near to a root a solution has to be to be this one: nearer than to the other roots, and than q is.
@@ -193,6 +222,17 @@ double recognisedWithin(const std::vector<Plane>& roots, const Plane& root) {
 
 }  // namespace
 
+bool isTold(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q,
+            const WeakDirections& weak) {
+  if (weak.sigma[weak.sigma.size() - 1] >= kOnContinuum) return true;
+  TaskResidual residual(chain, task, target, 1.0);
+  TaskPoint here;
+  here.q = q;
+  residual.evaluate(here);
+  const Eigen::Index unknowns = unknownsOf(weak);
+  return !isFlat(residual, here, weak, unknowns, reducedAt(residual, here, weak, unknowns));
+}
+
 SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q,
                               const WeakDirections* known, const IsAtHand& at_hand) {
   TaskResidual residual(chain, task, target, 1.0);
@@ -204,11 +244,11 @@ SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const 
   const Eigen::Index last = weak.sigma.size() - 1;
   SolutionsAbout about;
   if (weak.sigma[last] > kNearSingular * weak.largest) return about;
-  const Eigen::Index unknowns = last > 0 && weak.sigma[last - 1] < kTwiceSingular * weak.largest ? 2 : 1;
+  const Eigen::Index unknowns = unknownsOf(weak);
   const Reduced reduced = reducedAt(residual, here, weak, unknowns);
-  if (weak.sigma[last] < kOnContinuum && std::abs(reduced.K[1](1, 1)) < kStraight) {
-    about.is_told = !isFlat(residual, here, weak);
-    return about;
+  if (weak.sigma[last] < kOnContinuum) {
+    about.is_told = !isFlat(residual, here, weak, unknowns, reduced);
+    if (std::abs(reduced.K[1](1, 1)) < kStraight) return about;
   }
   std::vector<Plane> roots = unknowns == 1 ? rootsOfOne(reduced) : rootsOfTwo(reduced);
   std::sort(roots.begin(), roots.end(), [](const Plane& a, const Plane& b) { return a.norm() < b.norm(); });

@@ -27,6 +27,10 @@ struct SolutionsAbout {
 SolutionsAbout solutionsAbout(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q,
                               const WeakDirections* known, const IsAtHand& at_hand);
 
+/// Whether the pose tells q from configurations all along a curve: `is_told` alone.
+bool isTold(const SerialChain& chain, const Task& task, const Pose& target, const VectorX& q,
+            const WeakDirections& weak);
+
 }  // namespace screwline
 
 #endif  // SCREWLINE_SRC_IK_MATE_H

@@ -223,6 +223,29 @@ TEST(ToldFromContinua, WhatThePoseDoesNotTellIsNotCalledComplete) {
   }
 }
 
+/// Two conditions within 1e-9: between the answers and the configuration lies no other pose, to rounding, and of two
+/// weak directions neither need be the one along which it is met.
+TEST(ToldFromContinua, ThreeParallelAxesAndTwoWeakDirectionsAreAskedToo) {
+  const std::vector<std::pair<const char*, std::vector<double>>> poses = {
+      {"ur5",
+       {0.72407875867684268, -1.7333931906738169, -3.0381000193756691, 2.1329346538713621, 1.0000000000000001e-09,
+        -0.39201357775443357}},
+      {"puma560",
+       {1.3049995290294247, -1.5707963257948965, 1.6177742441429797, 0.32100511546436539, 1.0000000000000001e-09,
+        -1.7330240139035327}}};
+  for (const auto& [name, values] : poses) {
+    const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, name);
+    const InverseKinematics ik(robot.chain, robot.task);
+    const VectorX q = Eigen::Map<const VectorX>(values.data(), static_cast<Eigen::Index>(values.size()));
+    const IkResult result = ik.solve(IkGate(ik, q, true).request());
+    for (const IkAnswer& answer : result.solutions) {
+      EXPECT_GT(test::jointDifference(robot.chain, answer.position, q), 0.1) << name;
+    }
+    EXPECT_FALSE(result.complete) << name;
+    EXPECT_NE(result.message.find("rounding hides"), std::string::npos) << result.message;
+  }
+}
+
 TEST(AlwaysSingular, ArmsAreAnswered) {
   for (const test::AlwaysSingularArm& arm : test::alwaysSingularArms()) {
     const InverseKinematics ik(arm.chain, Task());
