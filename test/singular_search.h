@@ -17,13 +17,13 @@ inline const std::vector<double>& singularOffsets() {
   return offsets;
 }
 
-/// Newton's method with long steps until rounding is reached: what does not get there only comes near to the pose, as
-/// all members of a continuum beside the pose do. False there. A chain with as many joints as rows.
+/// Newton's method, steps of least norm, until rounding is reached: what does not get there only comes near to the pose,
+/// as all members of a continuum beside the pose do. False there.
 inline bool isTrueSolution(const InverseKinematics& ik, const Pose& target, VectorX& q) {
   constexpr double kLongestStep = 0.3;  // [rad, m]
-  const double rounding = 1e-14 * (1.0 + ik.chain().characteristicLength());
+  const double rounding = 2e-15 * (1.0 + ik.chain().characteristicLength());
   Matrix6X J;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 100; ++k) {
     const Pose tip = geometricJacobian(ik.chain(), q, J);
     const TaskError error = taskError(ik.task(), target, tip);
     if (error.norm() <= rounding) return true;
@@ -51,7 +51,7 @@ inline int missedSolutions(const InverseKinematics& ik, const VectorX& q, int re
   int missed = 0;
   for (VectorX& found : search(ik.chain(), ik.task(), request.target, {}, options).solutions) {
     const double error = polish(ik.chain(), ik.task(), request.target, found).norm();
-    if (!redundant && !isTrueSolution(ik, request.target, found)) continue;
+    if (!isTrueSolution(ik, request.target, found)) continue;
     // Next to a double root an error is worth its square root.
     const double tolerance = 1e-5 + 4.0 * std::sqrt(error) + placeTolerance(ik.chain(), ik.task(), found);
     if (!gate.isKnown(found, result, tolerance)) ++missed;
