@@ -17,8 +17,8 @@ inline const std::vector<double>& singularOffsets() {
   return offsets;
 }
 
-/// Newton's method, steps of least norm, until rounding is reached: what does not get there only comes near to the pose,
-/// as all members of a continuum beside the pose do. False there.
+/// Newton's method, steps of least norm, until rounding is reached: what does not get there only comes near to the
+/// pose, as all members of a continuum beside the pose do. False there.
 inline bool isTrueSolution(const InverseKinematics& ik, const Pose& target, VectorX& q) {
   constexpr double kLongestStep = 0.3;  // [rad, m]
   const double rounding = 2e-15 * (1.0 + ik.chain().characteristicLength());

@@ -139,6 +139,13 @@ VectorX nearestFrom(const SerialChain& chain, const Family& family, const Candid
   VectorX q = nearestMember(chain, family, start, seed);
   // On the way a joint may have come nearer to the seed by another turn.
   for (int k = 0; k < kMaxTurnings && nearestTurns(chain, q, seed) != q; ++k) q = nearestMember(chain, family, q, seed);
+  if (candidate.free.size() > 1) {
+    // Where a sum of angles is given, each may be in its best turn and the sum be not: with the seed's own values it
+    // is.
+    VectorX beside;
+    if (family.at(family.parameters(seed), seed, beside)) beside = nearestMember(chain, family, beside, seed);
+    if (beside.size() > 0 && (beside - seed).norm() < (q - seed).norm()) q = beside;
+  }
   if (candidate.free.size() != 1 || isStationary(family, q, seed)) return q;
   return nearestTurns(chain, goldenNearest(chain, family, stepOf(chain, candidate.free.front()), q, seed), seed);
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "ik_gate.h"
 #include "redundant_arms.h"
 #include "screwline/ik/redundant/self_motion_solver.h"
@@ -55,6 +57,31 @@ TEST(ArmCircleLaw, ContinuaHaveTheirDimension) {
     EXPECT_TRUE(result.complete) << result.message;
     EXPECT_LE((result.solutions.front().position - q).norm(), 1e-9);
     EXPECT_EQ(result.solutions.front().self_motion.rows(), one.dimension) << q.transpose();
+  }
+}
+
+/// Of a plane on which a sum of three angles is given, in whatever turns the seed has them.
+TEST(ArmCircleLaw, MembersOfAPlaneAreNearestToTheSeed) {
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "iiwa14");
+  const InverseKinematics ik(robot.chain, robot.task);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> angle(-kPi, kPi);
+  const VectorX push = VectorX::LinSpaced(7, -1e-3, 7e-4);
+  for (int k = 0; k < 40; ++k) {
+    VectorX q(7);
+    for (int i = 0; i < 7; ++i) q[i] = i == 1 || i == 3 ? 0.0 : angle(random);
+    IkRequest request;
+    request.target = forwardKinematics(robot.chain, q);
+    request.ignore_limits = true;
+    const double sum = q[0] + q[2] + q[4];
+    q[0] = angle(random);
+    q[2] = k % 2 == 0 ? -kPi : angle(random);
+    q[4] = std::remainder(sum - q[0] - q[2], kTwoPi);
+    ASSERT_LE(taskError(Task(), request.target, forwardKinematics(robot.chain, q)).norm(), 1e-9);
+    request.seed = q + push;
+    const IkResult result = ik.solve(request);
+    ASSERT_FALSE(result.solutions.empty());
+    EXPECT_LE(result.solutions.front().distance, 1.001 * push.norm()) << q.transpose();
   }
 }
 
