@@ -8,8 +8,8 @@
 #include "algebraic_arms.h"
 #include "algebraic_laws.h"
 #include "screwline/ik/numerical/numerical_solver.h"
-#include "screwline/model/urdf_reader.h"
 #include "screwline/kinematics/singularity.h"
+#include "screwline/model/urdf_reader.h"
 #include "screwline/spatial/svd.h"
 
 namespace screwline {

@@ -64,15 +64,15 @@ class ReachMargin;
 /// in line and a straight elbow are told with all of their dimensions.
 ///
 /// Resolution. A curve may be missed where the parameter joint moves by less than 0.025 rad (0.1 of a middle joint; a
-/// 256th of the range in which a slide can reach the pose) over the whole of it, between two slices. Where the point that the three meeting
-/// axes share is placed by turns of which the first two meet or are parallel, the maxima of the margin of reach find
-/// such curves too (an arm almost straight); with a quartic, slides or a middle joint as parameter they do not, and
-/// `complete` holds to this resolution only. Between nodes joint values are monotone but for pairs of extrema less than
-/// 1e-5 rad of arc length apart, so a limit may be overrun unnoticed by 1e-9 rad. Where curves come near to each other,
-/// or are loops about a single configuration, they are conics to second order: whether they cross or turn off is
-/// decided by the conic, to an error of 1e-14. Where even that is rounding (a surface that solves the pose to 1e-11)
-/// curves on it are told that the arm can follow, and `complete` is false. Immutable; all functions allocate and may be
-/// called from many threads.
+/// 256th of the range in which a slide can reach the pose) over the whole of it, between two slices. Where the point
+/// that the three meeting axes share is placed by turns of which the first two meet or are parallel, the maxima of the
+/// margin of reach find such curves too (an arm almost straight); with a quartic, slides or a middle joint as parameter
+/// they do not, and `complete` holds to this resolution only. Between nodes joint values are monotone but for pairs of
+/// extrema less than 1e-5 rad of arc length apart, so a limit may be overrun unnoticed by 1e-9 rad. Where curves come
+/// near to each other, or are loops about a single configuration, they are conics to second order: whether they cross
+/// or turn off is decided by the conic, to an error of 1e-14. Where even that is rounding (a surface that solves the
+/// pose to 1e-11) curves on it are told that the arm can follow, and `complete` is false. Immutable; all functions
+/// allocate and may be called from many threads.
 class SelfMotionSolver {
  public:
   /// Empty where the chain has not seven joints, or mimic joints, or moves its tip in less than six dimensions: its
