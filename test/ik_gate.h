@@ -162,6 +162,10 @@ class IkGate {
     verdict_.lost = ik_.complete() && !isKnown(q_, result, tolerance);
     if (verdict_.lost) note("lost: " + result.message);
     verdict_.merged = mateIsMissing(result);
+    if (verdict_.complete && verdict_.continua > 0 && isFartherThanKnown(result)) {
+      verdict_.seed_value_kept = false;
+      note("a member is nearer to the seed than all that is told");
+    }
   }
 
   void seeded() {
@@ -190,6 +194,17 @@ class IkGate {
         note("not the member nearest to the seed");
       }
     }
+  }
+
+  /// Continua are told by their members nearest to the seed, all of them counted: the configuration's own as well.
+  bool isFartherThanKnown(const IkResult& result) const {
+    VectorX away = q_ - chain_.clamped(VectorX::Zero(chain_.size()));
+    double least = std::numeric_limits<double>::infinity();
+    for (const IkAnswer& answer : result.solutions) least = std::min(least, answer.distance);
+    for (int i = 0; i < chain_.size() && ignore_limits_; ++i) {
+      if (chain_.joint(i).isRevolute()) away[i] = std::remainder(away[i], kTwoPi);
+    }
+    return least > away.norm() * (1.0 + 1e-9) + placeTolerance(chain_, ik_.task(), q_);
   }
 
   /// To first order: no step along the continuum comes nearer, unless the end of its range is met.

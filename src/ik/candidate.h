@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,18 @@ struct Continuum {
 
 struct CurveImage;
 
+/// Members of a continuum by the value of its parameter, in the turns next to `near` (which may be `member`); false
+/// where there is none.
+using MemberAt = std::function<bool(double value, const MemberVector& near, MemberVector& member)>;
+
+/// A way all round a continuum of one dimension, where no joint's value leads round it: joints turn back on it, or what
+/// leads is no joint of the chain.
+struct WayRound {
+  MemberAt at;
+  double start = 0.0;  ///< A parameter's value with a member, which is not a fold.
+  double period = 1.0;
+};
+
 /// A configuration that a solver proposes, on its way to becoming an IkAnswer.
 struct Candidate {
   VectorX q;
@@ -41,6 +54,8 @@ struct Candidate {
   /// Member of the same branch of the continuum with the free joints at the values that `preferred` has; false where
   /// there is none.
   std::function<bool(const VectorX& preferred, VectorX& q)> member;
+  /// Given where `free` is one joint whose values may not lead to all members; then `member` may be missing.
+  std::optional<WayRound> round;
   /// Given where another candidate's continuum is this one's image.
   std::shared_ptr<CurveImage> image;
   /// Given where the solver knows the continuum better than by members: describes it itself.

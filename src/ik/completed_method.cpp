@@ -49,6 +49,22 @@ std::vector<int> parameters(const MatrixX& J_task, std::size_t dimension) {
   return joints;
 }
 
+/// Empty where a slide is free: its values do not come round.
+std::optional<WayRound> wayRound(const SerialChain& chain, const Candidate& whole) {
+  if (whole.round) return whole.round;
+  const int free = whole.free.front();
+  if (!chain.joint(free).isRevolute()) return std::nullopt;
+  const auto at = [member_of = whole.member, free](double value, const MemberVector& near, MemberVector& member) {
+    VectorX preferred = near;
+    preferred[free] = value;
+    VectorX found;
+    if (!member_of(preferred, found)) return false;
+    member = found;
+    return true;
+  };
+  return WayRound{at, whole.q[free], kTwoPi};
+}
+
 }  // namespace
 
 CompletedMethod::CompletedMethod(const SerialChain& chain, const Task& task, CompletedChain completed)
@@ -130,7 +146,6 @@ std::vector<Candidate> CompletedMethod::candidates(const Pose& target, const Vec
   whole_seed.head(completed_.own) = seed;
   std::vector<Candidate> result;
   for (const Candidate& whole : wholeCandidates(target, whole_seed, doubted, complete)) {
-    const std::size_t dimension = whole.free.size() + (completed_.turnsByItself() ? 1 : 0);
     // Of a continuum that needs joints to be unlocked, some members may be solutions: one start for these.
     if (rejects_ && !whole.free.empty()) complete = false;
     if (whole.free.empty() && !isLocked(whole.q)) continue;
@@ -142,20 +157,38 @@ std::vector<Candidate> CompletedMethod::candidates(const Pose& target, const Vec
     Candidate candidate = candidateAt(q);
     candidate.branch = whole.branch;
     candidate.merged = whole.merged;
-    if (!rejects_ && !whole.free.empty()) openSheet(target, dimension, candidate);
+    if (!rejects_ && !whole.free.empty()) openSheet(whole, target, candidate);
     result.push_back(std::move(candidate));
   }
   return result;
 }
 
 /// Makes of a member of a continuum the continuum, by solutions next to solutions.
-void CompletedMethod::openSheet(const Pose& target, std::size_t dimension, Candidate& candidate) const {
+void CompletedMethod::openSheet(const Candidate& whole, const Pose& target, Candidate& candidate) const {
+  const std::size_t dimension = whole.free.size() + (completed_.turnsByItself() ? 1 : 0);
   candidate.describe = nullptr;
   candidate.free = parameters(taskJacobian(chain_, candidate.q, task_), dimension);
   const std::vector<int> held = candidate.free;
   candidate.member = [this, target, held](const VectorX& preferred, VectorX& q) {
     q = preferred;
     return returned(chain_, task_, target, held, q);
+  };
+  if (dimension == 1) openRound(whole, candidate);
+}
+
+/// On a continuum of one dimension each joint of the chain may turn back: round it leads what leads the completed
+/// chain.
+void CompletedMethod::openRound(const Candidate& whole, Candidate& candidate) const {
+  std::optional<WayRound> round = wayRound(completed_.chain, whole);
+  if (!round) return;
+  candidate.round = round;
+  candidate.round->at = [this, at = round->at](double value, const MemberVector& near, MemberVector& q) {
+    MemberVector member = MemberVector::Zero(completed_.chain.size());
+    member.head(completed_.own) = near;
+    if (!at(value, member, member)) return false;
+    q = member.head(completed_.own);
+    bringNear(chain_, near, q);
+    return true;
   };
 }
 

@@ -40,7 +40,8 @@ class CompletedMethod {
   bool compileExact(bool closed_form);
   std::vector<Candidate> wholeCandidates(const Pose& target, const VectorX& seed, bool doubted, bool& complete) const;
   bool isLocked(const VectorX& q) const;
-  void openSheet(const Pose& target, std::size_t dimension, Candidate& candidate) const;
+  void openSheet(const Candidate& whole, const Pose& target, Candidate& candidate) const;
+  void openRound(const Candidate& whole, Candidate& candidate) const;
   Continuum circle(const VectorX& q, const VectorX& seed, bool ignore_limits) const;
 
   SerialChain chain_;

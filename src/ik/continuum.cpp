@@ -258,22 +258,30 @@ MatrixX orthonormalRows(const MatrixX& rows) {
   return Q.transpose();
 }
 
+Continuum describeRound(const SerialChain& chain, const WayRound& round, const VectorX& q, const VectorX& seed,
+                        bool ignore_limits) {
+  MemberVector first = q;
+  round.at(round.start, seed, first);
+  return SolutionCurve(chain, round.at, round.period).describe(round.start, first, seed, ignore_limits);
+}
+
 }  // namespace
 
 Continuum describeContinuum(const SerialChain& chain, const Candidate& candidate, const VectorX& seed,
                             bool ignore_limits) {
   const Family family(chain, candidate);
-  if (candidate.free.size() == 1) {
+  if (candidate.free.size() == 1 && candidate.member) {
     const auto at = [&](double value, const MemberVector& near, MemberVector& q) { return family.at(value, near, q); };
     const std::optional<Continuum> line =
         describeLine(chain, at, candidate.q, candidate.free.front(), seed, ignore_limits);
     if (line) return *line;
     const int joint = candidate.free.front();
-    if (chain.joint(joint).isRevolute()) {
+    if (!candidate.round && chain.joint(joint).isRevolute()) {
       return SolutionCurve(chain, at, kTwoPi)
           .describe(candidate.q[joint], candidate.q, seed, ignore_limits, candidate.image.get());
     }
   }
+  if (candidate.round) return describeRound(chain, *candidate.round, candidate.q, seed, ignore_limits);
   Continuum continuum;
   VectorX q = nearestFrom(chain, family, candidate, candidate.q, seed);
   if (!ignore_limits && !isWithinLimits(chain, q)) nearestWithinLimits(chain, family, candidate, seed, q);

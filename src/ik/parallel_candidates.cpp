@@ -35,7 +35,7 @@ class Gathering {
     candidate.branch = method_.plan.branchName(named);
     candidate.merged = true;
     candidate.free = {loop.joint()};
-    candidate.describe = [loop](const VectorX& seed, bool ignore_limits) { return loop.describe(seed, ignore_limits); };
+    candidate.round = loop.round();
     add(std::move(candidate), named.sign);
   }
 

@@ -165,8 +165,8 @@ std::vector<Candidate> joinEqual(const SerialChain& chain, std::vector<Candidate
   std::vector<Candidate> distinct;
   for (Candidate& candidate : candidates) {
     const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const Candidate& other) {
-      return other.free == candidate.free && !other.describe && !candidate.describe &&
-             isSameConfiguration(chain, other.q, candidate.q);
+      return other.free == candidate.free && !other.round && !candidate.round && !other.describe &&
+             !candidate.describe && isSameConfiguration(chain, other.q, candidate.q);
     });
     if (same == distinct.end()) {
       distinct.push_back(std::move(candidate));

@@ -1,15 +1,11 @@
 #ifndef SCREWLINE_SRC_IK_SOLUTION_LINE_H
 #define SCREWLINE_SRC_IK_SOLUTION_LINE_H
 
-#include <functional>
 #include <optional>
 
 #include "candidate.h"
 
 namespace screwline {
-
-/// Members of a continuum by the value of its one free joint, in the turns next to `near`; false where there is none.
-using MemberAt = std::function<bool(double value, const MemberVector& near, MemberVector& member)>;
 
 /// A continuum that is a straight line in joint space: joints that turn about one line (an aligned wrist), a joint
 /// whose axis goes through the point that is asked for, slides in line. Known by members far apart that lie on a line

@@ -89,13 +89,13 @@ MemberVector SolutionLoop::at(double u, const MemberVector& near) const {
   return member;
 }
 
-Continuum SolutionLoop::describe(const VectorX& seed, bool ignore_limits) const {
-  const auto member = [this](double u, const MemberVector& near, MemberVector& q) {
-    q = at(u, near);
+WayRound SolutionLoop::round() const {
+  const auto member = [loop = *this](double u, const MemberVector& near, MemberVector& q) {
+    q = loop.at(u, near);
     return true;
   };
   // In a fold itself members are known to the root of rounding only: too little for a tangent.
-  return SolutionCurve(*chain_, member, 1.0).describe(kOffFolds, at(kOffFolds, seed), seed, ignore_limits);
+  return {member, kOffFolds, 1.0};
 }
 
 }  // namespace screwline

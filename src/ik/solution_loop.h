@@ -33,8 +33,8 @@ class SolutionLoop {
   /// Member at u in [0, 1] of the way round (any u: it goes on), revolute values in the turns next to `near`.
   MemberVector at(double u, const MemberVector& near) const;
 
-  /// As SolutionCurve does, over the way round.
-  Continuum describe(const VectorX& seed, bool ignore_limits) const;
+  /// By u. Holds a copy of the loop.
+  WayRound round() const;
 
  private:
   const SerialChain* chain_;
