@@ -75,23 +75,66 @@ int ownTurn(const SerialChain& chain, const Axis& axis, bool anywhere) {
   return -1;
 }
 
-void append(ChainDescription& description, const Axis& axis, const std::string& name) {
-  description.axes.push_back(axis);
-  description.axes.back().source = static_cast<int>(description.joints.size());
+/// A joint that may take any value.
+Joint freeJoint(const Axis& axis, const std::string& name) {
   Joint joint;
   joint.name = name;
-  joint.type = JointType::kContinuous;
-  description.joints.push_back(joint);
+  joint.type = axis.prismatic ? JointType::kPrismatic : JointType::kContinuous;
+  return joint;
 }
 
-CompletedChain completed(const SerialChain& chain, const std::vector<Axis>& locked, const std::optional<Axis>& turn) {
+/// What the task leaves open of the base's rows, as axes in front of the chain; nothing where it is no whole pose with
+/// them. A turn about a base axis moves positions along the others.
+std::optional<std::vector<Axis>> openAxes(const Task& task) {
+  std::vector<Axis> axes;
+  const bool has_positions = task.translationCount() > 0;
+  int turned = -1;
+  if (task.rotationCount() == 2 && task.pointingAxis() < 0) {
+    for (int row = 3; row < 6; ++row) turned = task.contains(row) ? turned : row - 3;
+    axes.push_back(revoluteAxis(Vector3::Unit(turned), Vector3::Zero()));
+  }
+  for (int row = 0; row < 3; ++row) {
+    if (task.contains(row)) {
+      if (turned >= 0 && row != turned) return std::nullopt;
+    } else if (has_positions) {
+      Axis slide;
+      slide.prismatic = true;
+      slide.direction = Vector3::Unit(row);
+      axes.push_back(slide);
+    }
+  }
+  return axes;
+}
+
+/// What is added to a chain.
+struct Addition {
+  Task rows;  ///< That the completed chain has joints for.
+  std::vector<Axis> open;
+  std::vector<Axis> locked;
+  std::optional<Axis> turn;
+};
+
+CompletedChain completed(const SerialChain& chain, const Addition& added) {
   ChainDescription description = chain.description();
-  for (std::size_t i = 0; i < locked.size(); ++i)
-    append(description, locked[i], "a locked joint " + std::to_string(i + 1));
-  if (turn) append(description, *turn, "the tool's turn");
+  description.axes.clear();
+  description.joints.clear();
+  const auto append = [&description](Axis axis, const Joint& joint) {
+    axis.source = static_cast<int>(description.joints.size());
+    description.axes.push_back(axis);
+    description.joints.push_back(joint);
+  };
+  const auto addFree = [&](const std::vector<Axis>& axes, const std::string& name) {
+    for (std::size_t i = 0; i < axes.size(); ++i) append(axes[i], freeJoint(axes[i], name + std::to_string(i + 1)));
+  };
+  addFree(added.open, "an open row ");
+  for (int i = 0; i < chain.size(); ++i) append(chain.axes()[static_cast<std::size_t>(i)], chain.joint(i));
+  addFree(added.locked, "a locked joint ");
+  if (added.turn) append(*added.turn, freeJoint(*added.turn, "the tool's turn"));
   description.links = {{description.tip_link, static_cast<int>(description.axes.size()), description.home}};
+  const int first = static_cast<int>(added.open.size());
   const int last = static_cast<int>(description.joints.size()) - 1;
-  return {SerialChain(description), chain.size(), static_cast<int>(locked.size()), turn ? last : -1};
+  return {SerialChain(description),      added.rows, first, chain.size(), static_cast<int>(added.locked.size()),
+          added.turn ? last - first : -1};
 }
 
 }  // namespace
@@ -107,23 +150,28 @@ Task wholeRowsOf(const Task& task) {
 
 std::vector<CompletedChain> completions(const SerialChain& chain, const Task& task) {
   const int pointing = task.pointingAxis();
-  const bool whole = task.rotationCount() == 3;
-  const int translations = task.translationCount();
-  if (chain.hasMimic() || !(whole || pointing >= 0) || !(translations == 0 || translations == 3)) return {};
-  std::optional<Axis> turn;
+  const std::optional<std::vector<Axis>> open = openAxes(task);
+  if (chain.hasMimic() || task.rotationCount() < 2 || !open) return {};
+  const bool is_orientation = task.translationCount() == 0;
+  Addition added;
+  added.rows = is_orientation ? Task::fromRows({3, 4, 5}) : Task();
+  added.open = *open;
   int own_turn = -1;
   if (pointing >= 0) {
     const Axis axis = revoluteAxis(chain.home().R.col(pointing), chain.home().p);
-    own_turn = ownTurn(chain, axis, translations == 0);
-    if (own_turn < 0) turn = axis;
+    own_turn = ownTurn(chain, axis, is_orientation);
+    if (own_turn < 0) added.turn = axis;
   }
-  const int locked = translations + 3 - chain.size() - (turn ? 1 : 0);
-  if (locked < 0 || (whole && locked == 0)) return {};
+  const int free = static_cast<int>(added.open.size()) + (added.turn ? 1 : 0);
+  const int locked = added.rows.size() - chain.size() - free;
+  if (locked < 0 || (free == 0 && own_turn < 0 && locked == 0)) return {};
   std::vector<CompletedChain> result;
-  if (locked > 0 && pointing >= 0) result.push_back(completed(chain, {}, turn));
-  if (locked <= kMostLocked && (locked == 0 || (translations == 3 && chain.size() >= 3))) {
-    for (const std::vector<Axis>& axes : lockedAxes(chain, locked, turn))
-      result.push_back(completed(chain, axes, turn));
+  if (locked > 0 && pointing >= 0) result.push_back(completed(chain, added));
+  if (locked <= kMostLocked && (locked == 0 || (!is_orientation && chain.size() >= 3))) {
+    for (const std::vector<Axis>& axes : lockedAxes(chain, locked, added.turn)) {
+      added.locked = axes;
+      result.push_back(completed(chain, added));
+    }
   }
   for (CompletedChain& one : result) {
     if (own_turn >= 0) one.turn = own_turn;

@@ -8,25 +8,30 @@
 
 namespace screwline {
 
-/// A chain with joints added behind it, so that a whole pose has as many joints as rows: locked ones, which only count
-/// at zero, and last a turn of the tool about the axis that a task points, which may take any value. Where the chain's
-/// own last joint is that turn (slides along it apart), none is added.
+/// A chain with joints added, so that a whole pose has as many joints as rows. In front of it those that may take any
+/// value: slides along the base's axes whose x y z the task leaves open, and a turn about the one whose rx ry rz it
+/// does. Behind it locked ones, which only count at zero, and last a turn of the tool about the axis that a task
+/// points, which may take any value. Where the chain's own last joint is that turn (slides along it apart), none is
+/// added.
 struct CompletedChain {
   SerialChain chain;
-  int own = 0;     ///< Joints of the chain itself; those behind are added.
-  int locked = 0;  ///< How many of these are locked: own, own + 1, ...
-  int turn = -1;   ///< The joint that turns the tool about its pointing axis; -1: the task is whole.
+  Task rows;       ///< The whole pose, or the whole orientation.
+  int first = 0;   ///< Where the chain's own joints begin,
+  int own = 0;     ///< and how many they are.
+  int locked = 0;  ///< How many of those behind them are locked.
+  int turn =
+      -1;  ///< The joint that turns the tool about its pointing axis, counted from the chain's own first; -1: none.
 
   bool turnsByItself() const { return turn >= 0 && turn < own; }
 };
 
-/// The rows of a whole pose (or orientation) that stand for the task: its x y z, and rx ry rz for what turns.
+/// The task's x y z, and rx ry rz for what turns.
 Task wholeRowsOf(const Task& task);
 
 /// Ways to complete a chain for a task, those first that are likely to give it a closed form: first without locked
 /// joints, which leaves more rows than joints; then with as many as are missing (two at most), placed where they meet
-/// the chain's last axes. None where the task has neither a whole orientation nor a pointing axis, has some of x y z
-/// only, where it is whole and nothing has to be added, or where there are joints to spare.
+/// the chain's last axes. None where there are joints to spare, where nothing has to be added, or where the task has
+/// one of rx ry rz only, or two of them and positions that a turn about the third moves.
 std::vector<CompletedChain> completions(const SerialChain& chain, const Task& task);
 
 }  // namespace screwline

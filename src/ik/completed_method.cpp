@@ -71,7 +71,7 @@ CompletedMethod::CompletedMethod(const SerialChain& chain, const Task& task, Com
     : chain_(chain), task_(task), completed_(std::move(completed)), rejects_(completed_.locked > 0) {}
 
 bool CompletedMethod::compileExact(bool closed_form) {
-  const Task whole = wholeRowsOf(task_);
+  const Task whole = completed_.rows;
   if (!closed_form) {
     if (whole.size() == 6) algebraic_ = AlgebraicSolver::compile(completed_.chain);
     if (algebraic_) method_ = algebraic_->method();
@@ -99,6 +99,7 @@ std::optional<CompletedMethod> CompletedMethod::compile(const SerialChain& chain
       } else if (way.turn >= 0) {
         method.method_ += "; the tool's turn about its direction is one joint more";
       }
+      if (way.first > 0) method.method_ += "; what the task leaves open of the base's rows are joints in front";
       if (method.rejects_) method.method_ += "; the rows beyond the joints are checked";
       return method;
     }
@@ -135,7 +136,7 @@ std::optional<InverseOutline> CompletedMethod::outline() const {
 
 bool CompletedMethod::isLocked(const VectorX& q) const {
   for (int i = 0; i < completed_.locked; ++i) {
-    if (std::abs(wrapAngle(q[completed_.own + i])) > kAlmostLocked) return false;
+    if (std::abs(wrapAngle(q[completed_.first + completed_.own + i])) > kAlmostLocked) return false;
   }
   return true;
 }
@@ -143,13 +144,13 @@ bool CompletedMethod::isLocked(const VectorX& q) const {
 std::vector<Candidate> CompletedMethod::candidates(const Pose& target, const VectorX& seed, bool doubted,
                                                    bool& complete) const {
   VectorX whole_seed = VectorX::Zero(completed_.chain.size());
-  whole_seed.head(completed_.own) = seed;
+  whole_seed.segment(completed_.first, completed_.own) = seed;
   std::vector<Candidate> result;
   for (const Candidate& whole : wholeCandidates(target, whole_seed, doubted, complete)) {
     // Of a continuum that needs joints to be unlocked, some members may be solutions: one start for these.
     if (rejects_ && !whole.free.empty()) complete = false;
     if (whole.free.empty() && !isLocked(whole.q)) continue;
-    VectorX q = whole.q.head(completed_.own);
+    VectorX q = whole.q.segment(completed_.first, completed_.own);
     if (rejects_) {
       const TaskError error = polish(chain_, task_, target, q);
       if (error.position > kSolutionTolerance || error.orientation > kSolutionTolerance) continue;
@@ -184,9 +185,9 @@ void CompletedMethod::openRound(const Candidate& whole, Candidate& candidate) co
   candidate.round = round;
   candidate.round->at = [this, at = round->at](double value, const MemberVector& near, MemberVector& q) {
     MemberVector member = MemberVector::Zero(completed_.chain.size());
-    member.head(completed_.own) = near;
+    member.segment(completed_.first, completed_.own) = near;
     if (!at(value, member, member)) return false;
-    q = member.head(completed_.own);
+    q = member.segment(completed_.first, completed_.own);
     bringNear(chain_, near, q);
     return true;
   };

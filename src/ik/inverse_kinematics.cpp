@@ -202,7 +202,7 @@ void InverseKinematics::Implementation::dropRepeated(const IkRequest& request, I
     if (known == distinct.end()) {
       distinct.push_back(std::move(answer));
     } else if (known->self_motion.rows() < answer.self_motion.rows()) {
-      *known = std::move(answer);
+      *known = toldBy(std::move(answer), *known);
     }
   }
   result.solutions = std::move(distinct);
@@ -259,15 +259,7 @@ void InverseKinematics::Implementation::admitSeed(const IkRequest& request, cons
   }
   IkAnswer& nearest = *std::min_element(result.solutions.begin(), result.solutions.end(), isNearer);
   if (nearest.distance <= 1e-12) return;
-  IkAnswer seed = nearest;
-  const IkAnswer measured = builder.describe(builder.seed());
-  seed.position = measured.position;
-  seed.position_error = measured.position_error;
-  seed.orientation_error = measured.orientation_error;
-  seed.joint_error = measured.joint_error;
-  seed.manipulability = measured.manipulability;
-  seed.within_limits = measured.within_limits;
-  seed.distance = 0.0;
+  const IkAnswer seed = toldBy(nearest, builder.describe(builder.seed()));
   const bool same =
       (nearest.position - seed.position).cwiseAbs().maxCoeff() <= kSameSolution || nearest.self_motion.rows() > 0;
   if (same) {

@@ -161,6 +161,17 @@ void describeRedundancy(const SerialChain& chain, const Task& task, IkAnswer& so
   }
 }
 
+IkAnswer toldBy(IkAnswer continuum, const IkAnswer& member) {
+  continuum.position = member.position;
+  continuum.position_error = member.position_error;
+  continuum.orientation_error = member.orientation_error;
+  continuum.joint_error = member.joint_error;
+  continuum.manipulability = member.manipulability;
+  continuum.within_limits = member.within_limits;
+  continuum.distance = member.distance;
+  return continuum;
+}
+
 std::vector<Candidate> joinEqual(const SerialChain& chain, std::vector<Candidate> candidates) {
   std::vector<Candidate> distinct;
   for (Candidate& candidate : candidates) {

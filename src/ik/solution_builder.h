@@ -55,6 +55,9 @@ class SolutionBuilder {
 /// A redundant chain's solution lies on its self-motion; told here to first order, its range is not traced.
 void describeRedundancy(const SerialChain& chain, const Task& task, IkAnswer& solution);
 
+/// A continuum's answer, told by another of its members.
+IkAnswer toldBy(IkAnswer continuum, const IkAnswer& member);
+
 /// Candidates with those that are the same within kSameSolution joined into one, marked merged.
 std::vector<Candidate> joinEqual(const SerialChain& chain, std::vector<Candidate> candidates);
 
