@@ -137,6 +137,30 @@ CompletedChain completed(const SerialChain& chain, const Addition& added) {
           added.turn ? last - first : -1};
 }
 
+/// The joints that may take any value.
+struct Opening {
+  Addition added;
+  int own_turn = -1;  ///< The chain's own joint that turns the tool about its pointing axis.
+
+  int freeCount() const { return static_cast<int>(added.open.size()) + (added.turn ? 1 : 0); }
+};
+
+/// Empty where the task with them is no whole pose, nor a whole orientation.
+std::optional<Opening> openingOf(const SerialChain& chain, const Task& task) {
+  const std::optional<std::vector<Axis>> open = openAxes(task);
+  if (chain.hasMimic() || task.rotationCount() < 2 || !open) return std::nullopt;
+  const bool is_orientation = task.translationCount() == 0;
+  Opening opening;
+  opening.added.rows = is_orientation ? Task::fromRows({3, 4, 5}) : Task();
+  opening.added.open = *open;
+  const int pointing = task.pointingAxis();
+  if (pointing < 0) return opening;
+  const Axis axis = revoluteAxis(chain.home().R.col(pointing), chain.home().p);
+  opening.own_turn = ownTurn(chain, axis, is_orientation);
+  if (opening.own_turn < 0) opening.added.turn = axis;
+  return opening;
+}
+
 }  // namespace
 
 Task wholeRowsOf(const Task& task) {
@@ -149,24 +173,14 @@ Task wholeRowsOf(const Task& task) {
 }
 
 std::vector<CompletedChain> completions(const SerialChain& chain, const Task& task) {
-  const int pointing = task.pointingAxis();
-  const std::optional<std::vector<Axis>> open = openAxes(task);
-  if (chain.hasMimic() || task.rotationCount() < 2 || !open) return {};
+  std::optional<Opening> opening = openingOf(chain, task);
+  if (!opening) return {};
+  Addition& added = opening->added;
+  const int locked = added.rows.size() - chain.size() - opening->freeCount();
+  if (locked < 0 || (opening->freeCount() == 0 && opening->own_turn < 0 && locked == 0)) return {};
   const bool is_orientation = task.translationCount() == 0;
-  Addition added;
-  added.rows = is_orientation ? Task::fromRows({3, 4, 5}) : Task();
-  added.open = *open;
-  int own_turn = -1;
-  if (pointing >= 0) {
-    const Axis axis = revoluteAxis(chain.home().R.col(pointing), chain.home().p);
-    own_turn = ownTurn(chain, axis, is_orientation);
-    if (own_turn < 0) added.turn = axis;
-  }
-  const int free = static_cast<int>(added.open.size()) + (added.turn ? 1 : 0);
-  const int locked = added.rows.size() - chain.size() - free;
-  if (locked < 0 || (free == 0 && own_turn < 0 && locked == 0)) return {};
   std::vector<CompletedChain> result;
-  if (locked > 0 && pointing >= 0) result.push_back(completed(chain, added));
+  if (locked > 0 && task.pointingAxis() >= 0) result.push_back(completed(chain, added));
   if (locked <= kMostLocked && (locked == 0 || (!is_orientation && chain.size() >= 3))) {
     for (const std::vector<Axis>& axes : lockedAxes(chain, locked, added.turn)) {
       added.locked = axes;
@@ -174,9 +188,18 @@ std::vector<CompletedChain> completions(const SerialChain& chain, const Task& ta
     }
   }
   for (CompletedChain& one : result) {
-    if (own_turn >= 0) one.turn = own_turn;
+    if (opening->own_turn >= 0) one.turn = opening->own_turn;
   }
   return result;
+}
+
+std::optional<CompletedChain> completionWithOneToSpare(const SerialChain& chain, const Task& task) {
+  const std::optional<Opening> opening = openingOf(chain, task);
+  if (!opening || opening->own_turn >= 0 || task.translationCount() == 0 || opening->freeCount() == 0) {
+    return std::nullopt;
+  }
+  if (chain.size() + opening->freeCount() != opening->added.rows.size() + 1) return std::nullopt;
+  return completed(chain, opening->added);
 }
 
 }  // namespace screwline

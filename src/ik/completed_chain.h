@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_SRC_IK_COMPLETED_CHAIN_H
 #define SCREWLINE_SRC_IK_COMPLETED_CHAIN_H
 
+#include <optional>
 #include <vector>
 
 #include "screwline/model/serial_chain.h"
@@ -33,6 +34,10 @@ Task wholeRowsOf(const Task& task);
 /// the chain's last axes. None where there are joints to spare, where nothing has to be added, or where the task has
 /// one of rx ry rz only, or two of them and positions that a turn about the third moves.
 std::vector<CompletedChain> completions(const SerialChain& chain, const Task& task);
+
+/// The chain with what the task leaves open added, where that makes one joint more than a whole pose has rows: then the
+/// task's solutions are the whole pose's self-motions. Empty elsewhere, and where nothing has to be added.
+std::optional<CompletedChain> completionWithOneToSpare(const SerialChain& chain, const Task& task);
 
 }  // namespace screwline
 

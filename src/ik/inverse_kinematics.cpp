@@ -6,6 +6,7 @@
 #include "account.h"
 #include "almost_singular.h"
 #include "completed_method.h"
+#include "completed_self_motion.h"
 #include "ik_request_check.h"
 #include "nearly_ideal.h"
 #include "parallel_candidates.h"
@@ -70,13 +71,21 @@ struct InverseKinematics::Implementation {
       redundant = SelfMotionSolver::compile(chain);
     }
     if (algebraic) nearly_ideal = NearlyIdeal::compile(chain, task);
-    method = algebraic   ? algebraic->method()
-             : redundant ? redundant->method()
-                         : "numerical search (Levenberg-Marquardt from many starts)";
+    open_self_motion = CompletedSelfMotion::compile(chain, task);
+    method = algebraic          ? algebraic->method()
+             : redundant        ? redundant->method()
+             : open_self_motion ? open_self_motion->method()
+                                : "numerical search (Levenberg-Marquardt from many starts)";
     moves_everywhere = taskRank(taskJacobian(chain, someConfiguration(chain), task)).rank < chain.size();
   }
 
-  bool isExact() const { return plan || parallel || completed || algebraic || (redundant && redundant->closedForm()); }
+  /// Of the chain, or of the completed one; null where there is none.
+  const SelfMotionSolver* selfMotions() const {
+    return redundant ? &*redundant : (open_self_motion ? &open_self_motion->solver() : nullptr);
+  }
+  bool isExact() const {
+    return plan || parallel || completed || algebraic || (selfMotions() != nullptr && selfMotions()->closedForm());
+  }
 
   std::vector<Candidate> candidates(const IkRequest& request, const SolutionBuilder& builder, bool doubted,
                                     IkResult& result) const;
@@ -101,6 +110,7 @@ struct InverseKinematics::Implementation {
   std::optional<AlgebraicSolver> algebraic;
   std::optional<NearlyIdeal> nearly_ideal;  ///< Beside `algebraic`.
   std::optional<SelfMotionSolver> redundant;
+  std::optional<CompletedSelfMotion> open_self_motion;
   std::string method;
   bool moves_everywhere = false;  ///< Every solution of a searched chain is a member of a continuum.
   double almost_singular;         ///< Manipulability below which solutions may meet.
@@ -274,7 +284,7 @@ std::string InverseKinematics::Implementation::doubt(bool indistinct) const {
   if (indistinct) return "rounding hides how a solution differs from others along a curve";
   if (plan) return "a continuum was met whose members had to be searched";
   if (algebraic || parallel || completed) return "the pose is at or near a continuum or a multiple solution";
-  return redundant ? "self-motions were found by numerical search or meet" : "found by numerical search";
+  return selfMotions() != nullptr ? "self-motions were found by numerical search or meet" : "found by numerical search";
 }
 
 void InverseKinematics::Implementation::conclude(const IkRequest& request, const SolutionBuilder& builder,
@@ -326,8 +336,9 @@ std::vector<std::string> InverseKinematics::branches() const {
   if (self.plan) return branchNamesOf(self.plan->plan.branchParts());
   if (self.parallel) return branchNamesOf(self.parallel->plan.branchParts());
   if (self.completed && self.completed->branchParts() != nullptr) return branchNamesOf(*self.completed->branchParts());
-  const bool named = self.redundant && self.redundant->closedForm();
-  return named ? branchNamesOf(self.redundant->closedForm()->plan().branchParts()) : std::vector<std::string>();
+  const SelfMotionSolver* motions = self.selfMotions();
+  const bool named = motions != nullptr && motions->closedForm();
+  return named ? branchNamesOf(motions->closedForm()->plan().branchParts()) : std::vector<std::string>();
 }
 
 std::optional<InverseOutline> InverseKinematics::outline() const {
@@ -368,14 +379,15 @@ IkResult InverseKinematics::solve(const IkRequest& request) const {
   IkResult result;
   result.method = self.method;
   bool any = false;
-  if (self.redundant) {
-    std::vector<IkAnswer> answers = selfMotionAnswers(*self.redundant, request, builder, result);
+  if (self.selfMotions() != nullptr) {
+    std::vector<IkAnswer> answers = self.redundant ? selfMotionAnswers(*self.redundant, request, builder, result)
+                                                   : self.open_self_motion->answers(request, builder, result);
     for (IkAnswer& answer : answers) self.admit(request, std::move(answer), builder, result);
     any = !answers.empty();
   }
   // No curve can be followed from what is singular: a search may still meet its solutions.
   const bool curves_say_nothing = result.solutions.empty() && !result.complete && request.redundancy.empty();
-  if (!self.redundant || curves_say_nothing) any = self.gather(request, builder, result) || any;
+  if (self.selfMotions() == nullptr || curves_say_nothing) any = self.gather(request, builder, result) || any;
   self.admitSeed(request, builder, result);
   const bool other_branch = !request.branch.empty() && any;
   const auto exists = [&result] { return result.outside_limits > 0 || !result.solutions.empty(); };

@@ -1,10 +1,11 @@
 #include "self_motion_answers.h"
 
-namespace screwline {
-namespace {
+#include <utility>
 
-IkAnswer answerOf(const SelfMotionAnswer& found, int held, const SolutionBuilder& builder) {
+namespace screwline {
+std::optional<IkAnswer> confirmed(const SelfMotionAnswer& found, int held, const SolutionBuilder& builder) {
   IkAnswer answer = builder.describe(found.q, held);
+  if (answer.position_error > kSolutionTolerance || answer.orientation_error > kSolutionTolerance) return std::nullopt;
   answer.branch = found.branch;
   answer.distance = found.distance;
   answer.within_limits = found.within_limits;
@@ -17,11 +18,13 @@ IkAnswer answerOf(const SelfMotionAnswer& found, int held, const SolutionBuilder
   return answer;
 }
 
-}  // namespace
-
 std::vector<IkAnswer> selfMotionAnswers(const SelfMotionSolver& solver, const IkRequest& request,
                                         const SolutionBuilder& builder, IkResult& result) {
-  const SelfMotionQuestion question{request.target, request.seed, request.ignore_limits, request.timeout};
+  SelfMotionQuestion question;
+  question.target = request.target;
+  question.seed = request.seed;
+  question.ignore_limits = request.ignore_limits;
+  question.timeout = request.timeout;
   const bool given = !request.redundancy.empty();
   const int held = given ? solver.parameterJoint() : -1;
   const SelfMotionAnswers found =
@@ -30,11 +33,12 @@ std::vector<IkAnswer> selfMotionAnswers(const SelfMotionSolver& solver, const Ik
   result.complete = found.complete;
   std::vector<IkAnswer> answers;
   for (const SelfMotionAnswer& one : found.answers) {
-    answers.push_back(answerOf(one, held, builder));
-    const IkAnswer& answer = answers.back();
-    if (answer.position_error <= kSolutionTolerance && answer.orientation_error <= kSolutionTolerance) continue;
-    answers.pop_back();
-    result.complete = false;
+    std::optional<IkAnswer> answer = confirmed(one, held, builder);
+    if (answer) {
+      answers.push_back(std::move(*answer));
+    } else {
+      result.complete = false;
+    }
   }
   return answers;
 }

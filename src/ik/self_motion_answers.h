@@ -1,6 +1,7 @@
 #ifndef SCREWLINE_SRC_IK_SELF_MOTION_ANSWERS_H
 #define SCREWLINE_SRC_IK_SELF_MOTION_ANSWERS_H
 
+#include <optional>
 #include <vector>
 
 #include "screwline/ik/redundant/self_motion_solver.h"
@@ -8,9 +9,13 @@
 
 namespace screwline {
 
+/// A piece of a self-motion as an answer; empty where forward kinematics does not confirm it to 1e-9.
+/// @param held the joint whose value the request fixes, or -1.
+std::optional<IkAnswer> confirmed(const SelfMotionAnswer& found, int held, const SolutionBuilder& builder);
+
 /// Every self-motion of a chain of seven joints as an answer, or, where the request fixes the parameter joint, every
 /// solution at its value. Sets what the result says of completeness and of curves outside the limits. Those that
-/// forward kinematics does not confirm to 1e-9 are left out, and the list is then not complete.
+/// are not confirmed are left out, and the list is then not complete.
 std::vector<IkAnswer> selfMotionAnswers(const SelfMotionSolver& solver, const IkRequest& request,
                                         const SolutionBuilder& builder, IkResult& result);
 

@@ -20,7 +20,7 @@ constexpr std::size_t kMostNodes = 5000;  // Of all curves: bounds the time wher
 constexpr double kSameCrossing = 1e-3;    // [rad]
 constexpr int kCrossingWays = 12;         // Directions in the plane of a crossing's tangents, half a turn of them.
 constexpr double kCrossingStep = 0.02;    // [rad] from the crossing, where its branches are apart.
-constexpr double kFarthestSlide = 4.0;    // [lengths] Where a slide has no limits.
+constexpr double kUsualSlide = 4.0;       // [lengths] Where a slide has no limits.
 
 /// Share at which the cubic's coordinate has a value between those of its ends.
 double shareAt(const SelfMotionNode& a, const SelfMotionNode& b, int joint, double value) {
@@ -45,7 +45,7 @@ using Range = std::pair<double, double>;
 /// point of the axis next to it (or of the first axis, where the slide is the last) stays within the sum of the lengths
 /// between the axes. Elsewhere a range that is wide enough for usual arms.
 Range rangeOfSlide(const SerialChain& chain, int joint, const Pose& target) {
-  const double far = kFarthestSlide * chain.characteristicLength() + target.p.norm();
+  const double far = kUsualSlide * chain.characteristicLength() + target.p.norm();
   const bool first = joint == 0;
   if (!first && joint != kRedundantJoints - 1) return {-far, far};
   const auto axis = [&](int i) { return chain.axes()[static_cast<std::size_t>(first ? i + 1 : i)]; };

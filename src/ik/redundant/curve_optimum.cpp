@@ -8,10 +8,10 @@
 namespace screwline {
 namespace {
 
-constexpr double kBand = 1e-10;  // [rad, m] beyond a limit that rounding may bring.
-constexpr double kLevel = 1e-7;  // Slope of the distance at its least value, of 1 + the distance.
-constexpr int kMostHalvings = 10;
-constexpr int kBestCount = 6;  // Of the places where a maximum may be, so many are refined.
+constexpr double kBand = 1e-10;    // [rad, m] beyond a limit that rounding may bring.
+constexpr double kLevel = 1e-7;    // Slope of the distance at its least value, of 1 + the distance.
+constexpr int kMostHalvings = 36;  // Of a step: to where a joint changes its turn at a limit, to 1e-11 rad.
+constexpr int kBestCount = 6;      // Of the places where a maximum may be, so many are refined.
 
 double turnedValue(const Joint& joint, double value, double seed, bool ignore_limits) {
   const JointLimits& limits = joint.limits;
@@ -69,8 +69,14 @@ SelfMotionNode refine(PoseCurve& pose, const SelfMotionNode& a, const SelfMotion
 /// The nearest of the points considered.
 class NearestSearch {
  public:
-  NearestSearch(PoseCurve& pose, const Vector7& seed, bool ignore_limits, const SelfMotionNode& first)
-      : pose_(pose), seed_(seed), ignore_limits_(ignore_limits), best_(first), least_(off(first).norm()) {}
+  NearestSearch(PoseCurve& pose, const Vector7& seed, const Vector7& counts, bool ignore_limits,
+                const SelfMotionNode& first)
+      : pose_(pose),
+        seed_(seed),
+        counts_(counts),
+        ignore_limits_(ignore_limits),
+        best_(first),
+        least_(off(first).norm()) {}
 
   const SelfMotionNode& best() const { return best_; }
 
@@ -106,15 +112,16 @@ class NearestSearch {
 
  private:
   Vector7 off(const SelfMotionNode& node) const {
-    return turnedTo(pose_.chain(), node.q, seed_, ignore_limits_) - seed_;
+    return counts_.cwiseProduct(turnedTo(pose_.chain(), node.q, seed_, ignore_limits_) - seed_);
   }
   /// Full turns.
   Vector7 shift(const SelfMotionNode& node) const {
-    return turnedTo(pose_.chain(), node.q, seed_, ignore_limits_) - node.q;
+    return counts_.cwiseProduct(turnedTo(pose_.chain(), node.q, seed_, ignore_limits_) - node.q);
   }
 
   PoseCurve& pose_;
   const Vector7& seed_;
+  const Vector7& counts_;
   bool ignore_limits_;
   SelfMotionNode best_;
   double least_;
@@ -129,13 +136,13 @@ Vector7 turnedTo(const SerialChain& chain, const Vector7& q, const Vector7& seed
 }
 
 SelfMotionNode nearestNode(PoseCurve& pose, const SelfMotionCurve& curve, const SelfMotionInterval& interval,
-                           const Vector7& seed, bool ignore_limits) {
-  NearestSearch search(pose, seed, ignore_limits, nodeAt(curve, interval.first));
+                           const Vector7& seed, const Vector7& counts, bool ignore_limits) {
+  NearestSearch search(pose, seed, counts, ignore_limits, nodeAt(curve, interval.first));
   for (int i = interval.first; i <= interval.last; ++i) search.consider(nodeAt(curve, i));
   for (int i = interval.first; i < interval.last; ++i) search.refine(nodeAt(curve, i), nodeAt(curve, i + 1), 0);
   // Beside a crossing tangents are rounding's: what slopes do not show, distances do.
   const auto nearness = [&](const Vector7& q) {
-    return -(turnedTo(pose.chain(), q, seed, ignore_limits) - seed).norm();
+    return -counts.cwiseProduct(turnedTo(pose.chain(), q, seed, ignore_limits) - seed).norm();
   };
   for (int i = interval.first; i < interval.last; ++i) {
     if (search.leadsOn(nodeAt(curve, i), 1.0) || search.leadsOn(nodeAt(curve, i + 1), -1.0))

@@ -13,7 +13,7 @@ Vector7 turnedTo(const SerialChain& chain, const Vector7& q, const Vector7& seed
 /// The node of an interval whose turned configuration is nearest to the seed: of all segments that can hold it, the
 /// root of the distance's derivative.
 SelfMotionNode nearestNode(PoseCurve& pose, const SelfMotionCurve& curve, const SelfMotionInterval& interval,
-                           const Vector7& seed, bool ignore_limits);
+                           const Vector7& seed, const Vector7& counts, bool ignore_limits);
 
 /// The node of an interval where `value` is largest: golden section around the best of nodes and half-way points.
 SelfMotionNode largestNode(PoseCurve& pose, const SelfMotionCurve& curve, const SelfMotionInterval& interval,

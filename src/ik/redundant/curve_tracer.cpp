@@ -168,10 +168,8 @@ class Walk {
   bool isOver() const {
     if (ended_) return true;
     for (int i = 0; i < kRedundantJoints; ++i) {
-      if (pose_.isRevolute(i)) continue;
-      const JointLimits& limits = pose_.chain().joint(i).limits;
-      if (at_.q[i] < limits.lower || at_.q[i] > limits.upper) return true;
-      if (std::abs(at_.q[i]) > kFarthest * pose_.chain().characteristicLength()) return true;
+      if (!pose_.isRevolute(i) && std::abs(at_.q[i]) > kFarthestSlide * pose_.chain().characteristicLength())
+        return true;
     }
     return at_.arc > kFarthest;
   }

@@ -19,6 +19,8 @@ bool traceCurve(PoseCurve& pose, const Vector7& start, SelfMotionCurve& curve);
 /// about 1e-9 rad.
 void splitAtExtrema(PoseCurve& pose, SelfMotionCurve& curve);
 
+/// [lengths] Of a slide, whatever its limits: a curve that goes so far is open.
+constexpr double kFarthestSlide = 100.0;
 constexpr double kNodeResolution = 1e-5;  ///< [rad] of arc length.
 
 /// Node at share in (0, 1) between two nodes where f, of opposite signs at them, is zero.

@@ -69,13 +69,15 @@ void describeArcs(const SelfMotionCurve& curve, const SelfMotionInterval& interv
 }
 
 SelfMotionAnswer answerOf(PoseCurve& pose, const SelfMotionCurve& curve, const SelfMotionInterval& interval,
-                          const Vector7& seed, int parameter, bool ignore_limits) {
+                          const SelfMotionQuestion& question, const Vector7& seed, int parameter) {
   const SerialChain& chain = pose.chain();
-  const SelfMotionNode node = nearestNode(pose, curve, interval, seed, ignore_limits);
+  const bool ignore_limits = question.ignore_limits;
+  const SelfMotionNode node = nearestNode(pose, curve, interval, seed, question.counts, ignore_limits);
   SelfMotionAnswer answer;
+  answer.traced = true;
   const Vector7 q = turnedTo(chain, node.q, seed, ignore_limits);
   answer.q = q;
-  answer.distance = (q - seed).norm();
+  answer.distance = question.counts.cwiseProduct(q - seed).norm();
   answer.within_limits = isWithinAll(chain, q);
   answer.singular = node.gain <= kSingularGain;
   answer.self_motion = node.tangent.normalized().transpose();
@@ -145,7 +147,7 @@ SelfMotionAnswers SelfMotionSolver::answer(const SelfMotionQuestion& question) c
   for (const SelfMotionCurve& curve : set.curves) {
     if (curve.intervals.empty()) ++result.outside_limits;
     for (const SelfMotionInterval& interval : curve.intervals)
-      result.answers.push_back(answerOf(pose, curve, interval, seed, parameterJoint(), question.ignore_limits));
+      result.answers.push_back(answerOf(pose, curve, interval, question, seed, parameterJoint()));
   }
   for (const SelfMotionSheet& sheet : set.sheets) {
     const SelfMotionAnswer answer = answerOf(chain_, question.target, candidateOf(sheet), seed, question.ignore_limits);

@@ -50,11 +50,22 @@ void nameArcs(PoseCurve& pose, const RedundantSolver& solver, const Pose& target
   }
 }
 
+/// Both ends of a curve along slides that are parallel, or could be.
+bool isUnbounded(const SerialChain& chain, const SelfMotionCurve& curve) {
+  const auto isFar = [&chain](const SelfMotionNode& node) {
+    for (int i = 0; i < kRedundantJoints; ++i) {
+      const double far = kFarthestSlide * chain.characteristicLength();
+      if (!chain.joint(i).isRevolute() && std::abs(node.q[i]) > far) return true;
+    }
+    return false;
+  };
+  return isFar(curve.nodes.front()) && isFar(curve.nodes.back());
+}
+
 void conclude(const SerialChain& chain, bool closed_form, SelfMotionSet& set) {
-  const bool turns_only =
-      std::all_of(chain.joints().begin(), chain.joints().end(), [](const Joint& joint) { return joint.isRevolute(); });
-  const bool broken = turns_only && std::any_of(set.curves.begin(), set.curves.end(),
-                                                [](const SelfMotionCurve& curve) { return !curve.closed; });
+  const bool broken = std::any_of(set.curves.begin(), set.curves.end(), [&](const SelfMotionCurve& curve) {
+    return !curve.closed && !isUnbounded(chain, curve);
+  });
   const bool crossing = std::any_of(set.curves.begin(), set.curves.end(),
                                     [](const SelfMotionCurve& curve) { return !curve.crossings.empty(); });
   if (!closed_form) {
@@ -215,7 +226,7 @@ VectorX SelfMotionSolver::bestMember(const SelfMotionQuestion& question, const S
   PoseCurve pose = poseCurve(question.target);
   const Vector7 seed = seedOf(chain_, question);
   if (goal == SelfMotionGoal::kNearestToSeed) {
-    const SelfMotionNode node = nearestNode(pose, curve, interval, seed, question.ignore_limits);
+    const SelfMotionNode node = nearestNode(pose, curve, interval, seed, question.counts, question.ignore_limits);
     return turnedTo(chain_, node.q, seed, question.ignore_limits);
   }
   Matrix6X J(6, kRedundantJoints);

@@ -19,8 +19,9 @@ struct ParameterInterval {
 struct SelfMotionAnswer {
   VectorX q;              ///< 7: its member nearest to the seed, in the turns within limits nearest to the seed.
   std::string branch;     ///< Of that member.
-  double distance = 0.0;  ///< Euclidean norm of q - seed.
+  double distance = 0.0;  ///< Euclidean norm of q - seed, of joints that count.
   bool within_limits = false;
+  bool traced = false;           ///< A piece of a curve; else a sheet.
   bool singular = false;         ///< The Jacobian loses rank at q, or two curves cross there.
   MatrixX self_motion;           ///< k x 7, orthonormal rows: tangents at q.
   std::vector<int> free_joints;  ///< Joints that move along it.
@@ -41,6 +42,8 @@ struct SelfMotionQuestion {
   VectorX seed;  ///< 7 values, or empty: zero, clamped into the limits.
   bool ignore_limits = false;
   double timeout = 0.1;  ///< [s] for what has to be searched numerically.
+  /// 1 for joints that count in distances to the seed, 0 for others.
+  Vector7 counts = Vector7::Ones();
 };
 
 /// What makes a member good.

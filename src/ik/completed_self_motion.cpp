@@ -1,0 +1,83 @@
+#include "completed_self_motion.h"
+
+#include <utility>
+
+#include "neighbour_sheet.h"
+#include "self_motion_answers.h"
+
+namespace screwline {
+
+CompletedSelfMotion::CompletedSelfMotion(const SerialChain& chain, const Task& task, CompletedChain completed,
+                                         SelfMotionSolver solver)
+    : chain_(chain),
+      task_(task),
+      completed_(std::move(completed)),
+      solver_(std::move(solver)),
+      method_(solver_.method() + "; what the task leaves open is a joint more") {}
+
+std::optional<CompletedSelfMotion> CompletedSelfMotion::compile(const SerialChain& chain, const Task& task) {
+  std::optional<CompletedChain> completed = completionWithOneToSpare(chain, task);
+  if (!completed) return std::nullopt;
+  std::optional<SelfMotionSolver> solver = SelfMotionSolver::compile(completed->chain);
+  if (!solver) return std::nullopt;
+  return CompletedSelfMotion(chain, task, std::move(*completed), std::move(*solver));
+}
+
+VectorX CompletedSelfMotion::ownOf(const VectorX& whole) const {
+  return whole.segment(completed_.first, completed_.own);
+}
+
+std::vector<IkAnswer> CompletedSelfMotion::answers(const IkRequest& request, const SolutionBuilder& builder,
+                                                   IkResult& result) const {
+  SelfMotionQuestion question;
+  question.target = request.target;
+  question.seed = VectorX::Zero(completed_.chain.size());
+  question.counts.setZero();
+  question.ignore_limits = request.ignore_limits;
+  question.timeout = request.timeout;
+  question.seed.segment(completed_.first, completed_.own) = builder.seed();
+  question.counts.segment(completed_.first, completed_.own).setOnes();
+  const SelfMotionAnswers found = solver_.answer(question);
+  result.outside_limits = found.outside_limits;
+  result.complete = found.complete;
+  std::vector<IkAnswer> answers;
+  for (const SelfMotionAnswer& whole : found.answers) {
+    std::optional<IkAnswer> answer = answerOf(whole, request.target, builder);
+    if (answer) {
+      answers.push_back(std::move(*answer));
+    } else {
+      result.complete = false;
+    }
+  }
+  return answers;
+}
+
+/// Sheets are described anew: in distances between their members all joints have counted.
+std::optional<IkAnswer> CompletedSelfMotion::answerOf(const SelfMotionAnswer& whole, const Pose& target,
+                                                      const SolutionBuilder& builder) const {
+  if (!whole.traced) {
+    Candidate candidate = unnamed(ownOf(whole.q));
+    candidate.branch = whole.branch;
+    const auto dimension = static_cast<std::size_t>(whole.self_motion.rows());
+    if (dimension > 0) openByNeighbours(chain_, task_, target, dimension, candidate);
+    return builder.build(std::move(candidate));
+  }
+  SelfMotionAnswer own = whole;
+  own.q = ownOf(whole.q);
+  own.self_motion = ownOf(whole.self_motion.row(0)).normalized().transpose();
+  own.free_joints.clear();
+  std::vector<double> lower;
+  std::vector<double> upper;
+  for (std::size_t i = 0; i < whole.free_joints.size(); ++i) {
+    const int joint = whole.free_joints[i] - completed_.first;
+    if (joint < 0 || joint >= completed_.own) continue;
+    own.free_joints.push_back(joint);
+    lower.push_back(whole.lower[static_cast<Eigen::Index>(i)]);
+    upper.push_back(whole.upper[static_cast<Eigen::Index>(i)]);
+  }
+  own.lower = Eigen::Map<VectorX>(lower.data(), static_cast<Eigen::Index>(lower.size()));
+  own.upper = Eigen::Map<VectorX>(upper.data(), static_cast<Eigen::Index>(upper.size()));
+  return confirmed(own, -1, builder);
+}
+
+}  // namespace screwline
