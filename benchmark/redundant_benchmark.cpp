@@ -45,7 +45,7 @@ void solveAt(benchmark::State& state, const SerialChain& chain) {
 /// The plan alone, on the poses that solveAt() hands to it.
 void planAlone(benchmark::State& state, const SerialChain& chain) {
   Case arm(chain);
-  const ClosedFormPlan& plan = arm.solver.closedForm()->plan();
+  const ClosedFormPlan& plan = *arm.solver.closedForm()->others().plan();
   const std::array<double, kMaxPlanJoints> preferred{};
   std::vector<Pose> targets;
   for (std::size_t i = 0; i < 256; ++i) {

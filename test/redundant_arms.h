@@ -72,7 +72,8 @@ class RedundantArmMaker : public ArmMaker {
  public:
   using ArmMaker::ArmMaker;
 
-  static constexpr int kClasses = 5;
+  static constexpr int kGeneral = 4;
+  static constexpr int kClasses = 6;
 
   /// 0: spherical wrist, any four turns before it; 1: spherical shoulder; 2: S-R-S; 3: a rail under six joints with a
   /// wrist; 4: no two axes meet.
@@ -100,8 +101,17 @@ class RedundantArmMaker : public ArmMaker {
       axes = {slide(direction()), turn(Vector3::UnitZ(), {0, 0, 0}), turn(Vector3::UnitY(), {0, 0, a}),
               turn(Vector3::UnitY(), {b, 0, a})};
       sphere({b + length(), 0.1, a});
-    } else {
+    } else if (kind == kGeneral) {
       for (int i = 0; i < 7; ++i) axes.push_back(turn(direction(), vector(0.5)));
+    } else {
+      // Of the kind of Universal Robots' arms, on a rail.
+      const double a = length();
+      const double b = length();
+      const double h = 0.3 * length();
+      axes = {slide(direction()), turn(Vector3::UnitZ(), {0, 0, 0}), turn(Vector3::UnitY(), {0, 0, a}),
+              turn(Vector3::UnitY(), {b, 0, a}), turn(Vector3::UnitY(), {b + length(), 0, a})};
+      axes.push_back(turn(Vector3::UnitZ(), axes.back().point + Vector3(0, h, 0)));
+      axes.push_back(turn(Vector3::UnitY(), axes.back().point + Vector3(0, 0, h)));
     }
     const SerialChain free = chain(axes, {pose().R, center + vector(0.4)}, pose());
     return limited ? withLimits(free) : free;

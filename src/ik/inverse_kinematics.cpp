@@ -338,7 +338,7 @@ std::vector<std::string> InverseKinematics::branches() const {
   if (self.completed && self.completed->branchParts() != nullptr) return branchNamesOf(*self.completed->branchParts());
   const SelfMotionSolver* motions = self.selfMotions();
   const bool named = motions != nullptr && motions->closedForm();
-  return named ? branchNamesOf(motions->closedForm()->plan().branchParts()) : std::vector<std::string>();
+  return named ? branchNamesOf(motions->closedForm()->others().branchParts()) : std::vector<std::string>();
 }
 
 std::optional<InverseOutline> InverseKinematics::outline() const {
@@ -348,8 +348,8 @@ std::optional<InverseOutline> InverseKinematics::outline() const {
   if (self.completed) return self.completed->outline();
   const bool given = self.redundant && self.redundant->closedForm() && self.redundant->closedForm()->compiledOnce();
   if (!given) return std::nullopt;
-  InverseOutline outline = self.redundant->closedForm()->plan().outline();
-  outline.given = self.redundant->parameterJoint();
+  std::optional<InverseOutline> outline = self.redundant->closedForm()->others().outline();
+  if (outline) outline->given = self.redundant->parameterJoint();
   return outline;
 }
 

@@ -126,6 +126,15 @@ void ComponentFinder::addGrid() {
   }
 }
 
+/// A curve along which the parameter stands still does so at a value that people choose: what is at right angles, or
+/// meant to be as the target says.
+void ComponentFinder::addChosenValues() {
+  const bool turns = pose_.isRevolute(solver_->parameterJoint());
+  for (double value : {0.0, 0.5 * kPi, kPi, -0.5 * kPi}) {
+    if (turns || value == 0.0) addValue(value);
+  }
+}
+
 void ComponentFinder::addExtrema(const ReachMargin& margin) {
   for (double value : margin.maxima(target_, first_, first_ + slices_ * step_, slices_)) addValue(value);
 }

@@ -15,6 +15,8 @@ class ComponentFinder {
 
   /// Slices at evenly spaced values of the parameter joint.
   void addGrid();
+  /// Slices at right angles and at zero, for curves along which the parameter joint stands still there.
+  void addChosenValues();
   /// Slices where the margin of reach is largest, for curves too short for the grid.
   void addExtrema(const ReachMargin& margin);
   /// One slice more.

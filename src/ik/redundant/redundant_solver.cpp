@@ -1,5 +1,7 @@
 #include "screwline/ik/redundant/redundant_solver.h"
 
+#include <utility>
+
 #include "screwline/spatial/rotation.h"
 
 namespace screwline {
@@ -37,20 +39,27 @@ SerialChain lockedChain(const SerialChain& chain, int joint, double value) {
   return SerialChain(description);
 }
 
-/// A plan of the chain with that joint rigid; for a joint inside of the chain, at each of a few values.
-std::optional<ClosedFormPlan> planWithout(const SerialChain& chain, int joint) {
-  std::optional<ClosedFormPlan> plan = ClosedFormPlan::compile(lockedChain(chain, joint, 0.0), Task());
-  if (joint == 0 || joint == kLast) return plan;
+/// A closed form of the chain with that joint rigid; for a joint inside of the chain, at each of a few values.
+std::optional<SixJointSolver> closedFormWithout(const SerialChain& chain, int joint) {
+  std::optional<SixJointSolver> solver = SixJointSolver::compileClosedForm(lockedChain(chain, joint, 0.0));
+  if (joint == 0 || joint == kLast) return solver;
   for (double value : {0.7, -1.9}) {
-    if (!plan || !ClosedFormPlan::compile(lockedChain(chain, joint, value), Task())) return std::nullopt;
+    if (!solver || !SixJointSolver::compileClosedForm(lockedChain(chain, joint, value))) return std::nullopt;
   }
-  return plan;
+  return solver;
+}
+
+PlanSolution tagsOf(const RedundantSolution& solution) {
+  PlanSolution tags;
+  tags.sign = solution.sign;
+  tags.rank = solution.rank;
+  return tags;
 }
 
 }  // namespace
 
-RedundantSolver::RedundantSolver(const SerialChain& chain, int parameter, const ClosedFormPlan& plan)
-    : chain_(chain), parameter_(parameter), plan_(plan) {
+RedundantSolver::RedundantSolver(const SerialChain& chain, int parameter, SixJointSolver others)
+    : chain_(chain), parameter_(parameter), others_(std::move(others)) {
   const Axis& axis = chain.axes()[static_cast<std::size_t>(parameter)];
   prismatic_ = axis.prismatic;
   direction_ = axis.direction;
@@ -60,7 +69,7 @@ RedundantSolver::RedundantSolver(const SerialChain& chain, int parameter, const 
     direction_ = X_TB.R * direction_;
     point_ = X_TB * point_;
   }
-  method_ = chain.joint(parameter).name + " given, " + plan.method();
+  method_ = chain.joint(parameter).name + " given, " + others_.method();
 }
 
 std::optional<RedundantSolver> RedundantSolver::compile(const SerialChain& chain) {
@@ -68,13 +77,18 @@ std::optional<RedundantSolver> RedundantSolver::compile(const SerialChain& chain
   // A branch that more signs tell apart has simpler equations: quadratics, not a quartic.
   std::optional<RedundantSolver> best;
   for (int joint : {kLast, 0}) {
-    const std::optional<ClosedFormPlan> plan = planWithout(chain, joint);
-    if (plan && (!best || plan->branchParts().size() > best->plan_.branchParts().size()))
-      best = RedundantSolver(chain, joint, *plan);
+    const std::optional<SixJointSolver> others = closedFormWithout(chain, joint);
+    if (others && (!best || others->branchParts().size() > best->others_.branchParts().size()))
+      best = RedundantSolver(chain, joint, *others);
   }
   for (int joint = 1; joint < kLast && !best; ++joint) {
-    const std::optional<ClosedFormPlan> plan = planWithout(chain, joint);
-    if (plan) best = RedundantSolver(chain, joint, *plan);
+    if (const std::optional<SixJointSolver> others = closedFormWithout(chain, joint))
+      best = RedundantSolver(chain, joint, *others);
+  }
+  for (int joint : {kLast, 0}) {
+    if (best) break;
+    if (const std::optional<SixJointSolver> others = SixJointSolver::compileAlgebraic(lockedChain(chain, joint, 0.0)))
+      best = RedundantSolver(chain, joint, *others);
   }
   return best;
 }
@@ -85,16 +99,17 @@ void RedundantSolver::solveAt(const Pose& target, double value, const Vector7& p
   for (int i = 0, k = 0; i < kRedundantJoints; ++i) {
     if (i != parameter_) wished[static_cast<std::size_t>(k++)] = preferred[i];
   }
-  PlanSolutions found;
+  SixJointSolutions found;
   if (parameter_ == 0) {
-    plan_.solve(motionOf(prismatic_, direction_, point_, -value) * target, wished.data(), found);
+    others_.solve(motionOf(prismatic_, direction_, point_, -value) * target, wished.data(), found);
   } else if (parameter_ == kLast) {
-    plan_.solve(target * motionOf(prismatic_, direction_, point_, -value), wished.data(), found);
-  } else if (const std::optional<ClosedFormPlan> plan =
-                 ClosedFormPlan::compile(lockedChain(chain_, parameter_, value), Task())) {
-    plan->solve(target, wished.data(), found);
+    others_.solve(target * motionOf(prismatic_, direction_, point_, -value), wished.data(), found);
+  } else if (const std::optional<SixJointSolver> others =
+                 SixJointSolver::compileClosedForm(lockedChain(chain_, parameter_, value))) {
+    others->solve(target, wished.data(), found);
   }
   solutions.count = 0;
+  solutions.complete = found.complete;
   const unsigned below = (1U << parameter_) - 1U;
   for (const PlanSolution& plan_solution : found) {
     RedundantSolution& solution = solutions.solutions[static_cast<std::size_t>(solutions.count++)];
@@ -106,23 +121,12 @@ void RedundantSolver::solveAt(const Pose& target, double value, const Vector7& p
   }
 }
 
-namespace {
-
-PlanSolution tagsOf(const RedundantSolution& solution) {
-  PlanSolution tags;
-  tags.sign = solution.sign;
-  tags.rank = solution.rank;
-  return tags;
-}
-
-}  // namespace
-
 std::string RedundantSolver::branchName(const RedundantSolution& solution) const {
-  return plan_.branchName(tagsOf(solution));
+  return others_.branchName(tagsOf(solution));
 }
 
 bool RedundantSolver::isDouble(const RedundantSolution& solution) const {
-  return plan_.isDouble(tagsOf(solution));
+  return others_.isDouble(tagsOf(solution));
 }
 
 }  // namespace screwline

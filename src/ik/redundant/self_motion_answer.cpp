@@ -167,7 +167,7 @@ SelfMotionAnswers SelfMotionSolver::answerAt(const SelfMotionQuestion& question,
   closed_form_->solveAt(question.target, value, seed, solutions);
   PoseCurve pose = poseCurve(question.target);
   SelfMotionAnswers result;
-  result.complete = true;
+  result.complete = solutions.complete;
   for (const RedundantSolution& solution : solutions) {
     SelfMotionAnswer answer;
     SelfMotionNode node;

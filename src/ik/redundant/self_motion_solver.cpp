@@ -197,6 +197,7 @@ void SelfMotionSolver::follow(const SelfMotionQuestion& question, PoseCurve& pos
   if (question.seed.size() > 0) finder.addStart(question.seed, kNear);
   if (solver != nullptr) {
     finder.addGrid();
+    finder.addChosenValues();
     if (margin_) finder.addExtrema(*margin_);
     finder.finishSheets();
   } else {
