@@ -36,11 +36,9 @@ class Circle {
       : pose_(pose), arm_(std::move(arm)), place_(elbow), set_(set) {}
 
   void add() {
+    const double in_line = elbow().straight ? ArmPose::kFlat : kInLine;
     for (Line line : {kShoulder, kWrist}) {
-      const ArmPose::Side& side = sideOf(line);
-      const double tilt =
-          std::hypot(side.before(2, 0), side.before(2, 1)) + std::hypot(side.behind(0, 2), side.behind(1, 2));
-      if (tilt <= kInLine) {
+      if (sideOf(line).tilt() <= in_line) {
         always_ |= line;
       } else {
         addEvents(line);
@@ -49,7 +47,7 @@ class Circle {
     std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.angle < b.angle; });
     joinEvents();
     if (always_ != 0) {
-      addAlways();
+      isInLine(always_) ? addAlways() : addFlat();
     } else {
       addWays();
     }
@@ -60,6 +58,12 @@ class Circle {
   const ArmPose::Elbow& elbow() const { return arm_->elbows()[place_]; }
 
   const ArmPose::Side& sideOf(Line line) const { return line == kShoulder ? elbow().shoulder : elbow().wrist; }
+
+  /// All along the circle, to rounding.
+  bool isInLine(int lines) const {
+    const auto in_line = [&](Line line) { return (lines & line) == 0 || sideOf(line).tilt() <= kInLine; };
+    return in_line(kShoulder) && in_line(kWrist);
+  }
 
   void addEvents(Line line) {
     for (double angle : ArmPose::extremes(sideOf(line))) {
@@ -246,6 +250,33 @@ class Circle {
     };
     for (int sign : {1, -1}) {
       if (!both || sign > 0) addSheet(free, {sign, sign}, angleOf);
+    }
+  }
+
+  /// Axes almost in line beside a straight elbow: by as little as rounding leaves it bent the line comes to where any
+  /// two turns of the group have it.
+  void addFlat() {
+    const bool shoulder = (always_ & kShoulder) != 0;
+    if (always_ == (kShoulder | kWrist)) {
+      // Where either group is in line, its turns leave that surface.
+      set_.complete = false;
+      set_.note = "surfaces cross: shoulder and wrist are almost in line beside a straight elbow";
+    }
+    const std::vector<int> free = shoulder ? std::vector<int>{0, 2} : std::vector<int>{4, 6};
+    for (int sign : {1, -1}) {
+      const ArmSigns signs = shoulder ? ArmSigns{0, sign} : ArmSigns{sign, 0};
+      Vector7 member;
+      arm_->solve(elbow(), 0.0, &signs, Vector7::Zero(), member);
+      set_.sheets.push_back(
+          {member, free, false, "", [arm = arm_, place = place_, signs, shoulder](const VectorX& wished, VectorX& q) {
+             const Vector7 near = wished;
+             const std::optional<ArmPose::Elbow> bent = arm->bentFor(arm->elbows()[place], shoulder, near);
+             if (!bent) return false;
+             Vector7 found;
+             arm->solve(*bent, arm->angleOf(*bent, shoulder, near), &signs, near, found);
+             q = found;
+             return true;
+           }});
     }
   }
 
