@@ -90,15 +90,15 @@ ArmPose::ArmPose(std::shared_ptr<const ArmCircle> arm, const Pose& target) : arm
   joinElbows();
 }
 
-/// Of two values that rounding has parted, where a group is almost in line: their middle.
+/// Two values that rounding has parted; where a group is almost in line, their middle stands for both.
 void ArmPose::joinElbows() {
   if (elbows_.size() != 2) return;
   const double apart = std::remainder(elbows_[1].q - elbows_[0].q, kTwoPi);
   if (std::abs(apart) > kSameElbow) return;
+  for (Elbow& elbow : elbows_) elbow.straight = true;
   Elbow middle = elbowAt(elbows_[0].q + 0.5 * apart);
-  if (std::min(middle.shoulder.tilt(), middle.wrist.tilt()) > kFlat) return;
   middle.straight = true;
-  elbows_ = {middle};
+  if (std::min(middle.shoulder.tilt(), middle.wrist.tilt()) <= kFlat) elbows_ = {middle};
 }
 
 ArmPose::Elbow ArmPose::elbowAt(double q) const {

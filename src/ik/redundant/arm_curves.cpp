@@ -21,6 +21,7 @@ constexpr double kMostOff = 0.1;      // Of a step, of what speeds tell.
 constexpr int kCircleNodes = 16;
 
 enum Line { kShoulder = 1, kWrist = 2 };
+constexpr int kBoth = kShoulder | kWrist;
 
 /// Values of the arm angle at which axes are in line, or nearest to it.
 struct Event {
@@ -46,6 +47,10 @@ class Circle {
     }
     std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.angle < b.angle; });
     joinEvents();
+    if (hasUntold()) {
+      set_.complete = false;
+      set_.note = "shoulder and wrist are almost in line at once beside a straight elbow";
+    }
     if (always_ != 0) {
       isInLine(always_) ? addAlways() : addFlat();
     } else {
@@ -63,6 +68,16 @@ class Circle {
   bool isInLine(int lines) const {
     const auto in_line = [&](Line line) { return (lines & line) == 0 || sideOf(line).tilt() <= kInLine; };
     return in_line(kShoulder) && in_line(kWrist);
+  }
+
+  /// Where both groups are almost in line at once, a straight elbow's bend makes surfaces that are not told: the turns
+  /// of either leave the surface of the other's, or they cross at an event.
+  bool hasUntold() const {
+    if (!elbow().straight) return false;
+    if (always_ == kBoth) return !isInLine(kBoth);
+    return std::any_of(events_.begin(), events_.end(), [&](const Event& event) {
+      return event.in_line != kBoth && outOfLine(event.angle, kBoth) <= ArmPose::kFlat;
+    });
   }
 
   void addEvents(Line line) {
@@ -212,7 +227,7 @@ class Circle {
   /// Solutions at the angle at which axes are in line: circles on which two joints turn against each other, or sheets.
   void addCrossing(const Event& event) {
     if (event.in_line == 0) return;
-    if ((event.in_line | always_) == (kShoulder | kWrist)) {
+    if ((event.in_line | always_) == kBoth) {
       addSheet({0, 4}, {1, 1}, [angle = event.angle](const Vector7&) { return angle; });
       return;
     }
@@ -242,7 +257,7 @@ class Circle {
   /// Axes in line all along the circle: the turns of two joints tell the arm angle, the other group follows.
   void addAlways() {
     const bool shoulder = (always_ & kShoulder) != 0;
-    const bool both = always_ == (kShoulder | kWrist);
+    const bool both = always_ == kBoth;
     std::vector<int> free = shoulder ? std::vector<int>{0, 2} : std::vector<int>{4, 6};
     if (both) free.push_back(4);
     const auto angleOf = [arm = arm_, place = place_, shoulder](const Vector7& q) {
@@ -257,11 +272,6 @@ class Circle {
   /// two turns of the group have it.
   void addFlat() {
     const bool shoulder = (always_ & kShoulder) != 0;
-    if (always_ == (kShoulder | kWrist)) {
-      // Where either group is in line, its turns leave that surface.
-      set_.complete = false;
-      set_.note = "surfaces cross: shoulder and wrist are almost in line beside a straight elbow";
-    }
     const std::vector<int> free = shoulder ? std::vector<int>{0, 2} : std::vector<int>{4, 6};
     for (int sign : {1, -1}) {
       const ArmSigns signs = shoulder ? ArmSigns{0, sign} : ArmSigns{sign, 0};
