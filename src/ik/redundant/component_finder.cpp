@@ -145,6 +145,7 @@ void ComponentFinder::addValue(double value) {
 bool ComponentFinder::addStart(const Vector7& q, double reach) {
   SelfMotionNode node;
   if (!pose_.correct(q, reach, node)) return false;
+  if (node.gain <= kBlurredGain && addSurface(node.q)) return true;
   // Near a singularity rounding leaves open where across the curve a solution lies.
   const double same = std::clamp(kRounding / node.gain, kSamePoint, kSliceReach);
   for (const SelfMotionCurve& curve : curves_) {
@@ -186,11 +187,10 @@ void ComponentFinder::branchOut(const Vector7& crossing) {
     return;
   }
   // A surface within rounding has curves everywhere.
-  if (form.is_known && std::abs(form.values[1]) <= kLeastForm) return;
-  const Eigen::Matrix<double, kRedundantJoints, 2> plane = pose_.weakestPlane(crossing);
+  if (form.isSurface()) return;
   for (int k = 0; k < 2 * kCrossingWays; ++k) {
     const double angle = kPi * k / kCrossingWays;
-    const Vector7 way = std::cos(angle) * plane.col(0) + std::sin(angle) * plane.col(1);
+    const Vector7 way = std::cos(angle) * form.plane.col(0) + std::sin(angle) * form.plane.col(1);
     addStart(crossing + kCrossingStep * way, kCrossingStep);
   }
 }
