@@ -14,7 +14,7 @@ namespace screwline {
 namespace {
 
 constexpr double kRegular = 1e-6;        // Gain of a node from which a curve can be followed.
-constexpr double kMostError = 2e-11;     // Of a surface's members.
+constexpr double kMostError = 1e-10;     // Of a surface's members.
 constexpr int kSurfaceSamples = 6;       // Of each turn.
 constexpr int kSteps = 2;                // Of Newton's method: from a tangent plane.
 constexpr double kOnSurface = 1e-6;      // [rad]
