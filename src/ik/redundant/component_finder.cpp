@@ -75,7 +75,12 @@ double distanceToCurve(PoseCurve& pose, const SelfMotionCurve& curve, const Vect
     const SelfMotionNode& b = curve.nodes[i + 1];
     const double h = b.arc - a.arc;
     const Vector7 from = pose.difference(a.q, q);
-    if (h <= 0.0 || pose.norm(from) > 1.1 * h + reach) continue;
+    const double away = pose.norm(from);
+    if (h <= 0.0 || away > 1.1 * h + reach) {
+      // Nor is what ends before the curve can have come so far.
+      while (i + 2 < curve.nodes.size() && 1.1 * (curve.nodes[i + 2].arc - a.arc) < away - reach) ++i;
+      continue;
+    }
     double share = std::clamp(pose.dot(from, a.tangent) / h, 0.0, 1.0);
     SelfMotionNode node = a;
     for (int k = 0; k < 6; ++k) {

@@ -156,7 +156,7 @@ bool PoseCurve::between(const SelfMotionNode& a, const SelfMotionNode& b, double
 Vector7 PoseCurve::difference(const Vector7& a, const Vector7& b) const {
   Vector7 d = b - a;
   for (int i = 0; i < kRedundantJoints; ++i) {
-    if (isRevolute(i)) d[i] = std::remainder(d[i], kTwoPi);
+    if (std::abs(d[i]) > kPi && isRevolute(i)) d[i] = std::remainder(d[i], kTwoPi);
   }
   return d;
 }
