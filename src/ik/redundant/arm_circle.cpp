@@ -13,6 +13,9 @@ namespace {
 constexpr double kSamePoint = 1e-9;  // Of the chain's length.
 constexpr double kBeside = 1e-6;     // [rad] of the arm angle.
 constexpr double kRounding = 1e-14;  // [rad] of directions; over the sine between axes, of tangents.
+constexpr double kSameElbow = 3e-7;  // [rad] Rounding parts a double root by as much.
+constexpr double kMostBend = 1e-6;   // [rad] of a straight elbow: changes the distance by 1e-12 of it.
+constexpr double kMostGap = 1e-12;   // [rad] left of the line's direction.
 
 Matrix3 someFrameOn(const Vector3& z) {
   return frameOn(z, anyPerpendicular(z));
@@ -30,6 +33,13 @@ std::optional<ArmCircle::Group> groupAt(const SerialChain& chain, int first) {
 Vector3 made(const Vector3& velocity, const Vector3& a, const Vector3& b, const Vector3& c) {
   const double volume = a.dot(b.cross(c));
   return Vector3(velocity.dot(b.cross(c)), velocity.dot(c.cross(a)), velocity.dot(a.cross(b))) / volume;
+}
+
+/// Of the line, seen from the second axis of a group: what turns about the first and the third axis leave between where
+/// it is and where the elbow has it (the sine rule in the triangle of the line and the outer axes).
+double gapOf(const ArmPose::Side& side, double first, double third) {
+  return std::cos(third) * side.behind(2, 0) - std::sin(third) * side.behind(2, 1) -
+         std::cos(first) * side.before(0, 2) - std::sin(first) * side.before(1, 2);
 }
 
 }  // namespace
@@ -73,23 +83,40 @@ ArmPose::ArmPose(std::shared_ptr<const ArmCircle> arm, const Pose& target) : arm
   const RealRoots roots = solveForm(carried.squareFrom(arm_->shoulderCenter()) + -distance * distance, false,
                                     length * length + distance * distance);
   if (roots.always) regular_ = false;
-  for (const RealRoot& root : roots) addElbow(root.turn.angle(), carried.at(0.0, root.turn), axis.direction);
+  for (const RealRoot& root : roots) {
+    elbows_.push_back(elbowAt(root.turn.angle()));
+    elbows_.back().straight = root.slope == 0;
+  }
+  joinElbows();
 }
 
-void ArmPose::addElbow(double q, const Vector3& wrist, const Vector3& axis) {
+/// Two values that rounding has parted; where a group is almost in line, their middle stands for both.
+void ArmPose::joinElbows() {
+  if (elbows_.size() != 2) return;
+  const double apart = std::remainder(elbows_[1].q - elbows_[0].q, kTwoPi);
+  if (std::abs(apart) > kSameElbow) return;
+  for (Elbow& elbow : elbows_) elbow.straight = true;
+  Elbow middle = elbowAt(elbows_[0].q + 0.5 * apart);
+  middle.straight = true;
+  if (std::min(middle.shoulder.tilt(), middle.wrist.tilt()) <= kFlat) elbows_ = {middle};
+}
+
+ArmPose::Elbow ArmPose::elbowAt(double q) const {
   const ArmCircle::Group& shoulder = arm_->shoulder();
   const ArmCircle::Group& hand = arm_->wrist();
+  const Axis& axis = arm_->chain().axes()[3];
   const Matrix3 line = someFrameOn(line_);
   Elbow elbow;
   elbow.q = q;
-  elbow.turn = rotationAbout(axis, q);
+  elbow.turn = rotationAbout(axis.direction, q);
+  const Vector3 wrist = axis.point + elbow.turn * (arm_->wristCenter() - axis.point);
   const Matrix3 align = line * someFrameOn((wrist - arm_->shoulderCenter()).normalized()).transpose();
   elbow.shoulder = {shoulder.problem.nearFrame().transpose() * line,
                     line.transpose() * align * shoulder.problem.farFrame(), 1.0};
   elbow.wrist = {hand.problem.nearFrame().transpose() * elbow.turn.transpose() * align.transpose() * line,
                  line.transpose() * rotation_ * hand.problem.farFrame(), -1.0};
   recentre(elbow);
-  elbows_.push_back(elbow);
+  return elbow;
 }
 
 void ArmPose::recentre(Elbow& elbow) {
@@ -178,6 +205,20 @@ double ArmPose::angleOf(const Elbow& elbow, bool shoulder, const Vector7& q) con
   const Side& side = shoulder ? elbow.shoulder : elbow.wrist;
   const Matrix3 turn = side.before.transpose() * M * side.behind.transpose();
   return side.sense * std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
+}
+
+std::optional<ArmPose::Elbow> ArmPose::bentFor(const Elbow& straight, bool shoulder, const Vector7& q) const {
+  const int first = shoulder ? 0 : 4;
+  const auto gapAt = [&](const Elbow& elbow) {
+    return gapOf(shoulder ? elbow.shoulder : elbow.wrist, q[first], q[first + 2]);
+  };
+  const double gap = gapAt(straight);
+  const double change = gapAt(elbowAt(straight.q + kMostBend)) - gapAt(elbowAt(straight.q - kMostBend));
+  const double slope = change / (2.0 * kMostBend);
+  const bool enough = std::abs(slope) * kMostBend > std::abs(gap);
+  const double bend = enough ? -gap / slope : std::copysign(kMostBend, -gap * slope);
+  if (std::abs(gap + slope * bend) > kMostGap) return std::nullopt;
+  return elbowAt(straight.q + bend);
 }
 
 /// Joint velocities at unit rate of the arm angle: the shoulder turns the arm about the line, the wrist turns back.

@@ -40,7 +40,7 @@ class ArmCircle {
   Vector3 wrist_center_;  ///< At zero.
 };
 
-/// Which of the two ways a group turns: the sign of the sine of its middle angle.
+/// Which of the two ways a group turns: the sign of the sine of its middle angle. 0: any.
 struct ArmSigns {
   int shoulder = 1;
   int wrist = 1;
@@ -55,6 +55,8 @@ class ArmPose {
   /// What a group has to turn by, as a function of the arm angle, in the group's frames.
   struct Side {
     Matrix3 at(double angle) const { return before * rotationAbout(Vector3::UnitZ(), sense * angle) * behind; }
+    /// The largest sine between the first and the third axis of the group, to second order.
+    double tilt() const { return before.bottomLeftCorner<1, 2>().norm() + behind.topRightCorner<2, 1>().norm(); }
 
     Matrix3 before, behind;
     double sense = 1.0;  ///< -1 of the wrist, which turns back.
@@ -64,9 +66,13 @@ class ArmPose {
   /// faster than it.
   struct Elbow {
     double q = 0.0;
+    bool straight = false;  ///< Or folded: rounding does not tell the two values apart that it may have.
     Side shoulder, wrist;
     Matrix3 turn;  ///< Of the elbow.
   };
+
+  /// Tilt of a group beside a straight elbow below which its turns follow the elbow by what rounding leaves it bent.
+  static constexpr double kFlat = 1e-7;
 
   /// None where the pose is out of reach, or the points coincide.
   const std::vector<Elbow>& elbows() const { return elbows_; }
@@ -80,9 +86,13 @@ class ArmPose {
   /// The configuration alone. Returns the lesser sine between first and third axes of the groups; 0 where one is free.
   double solve(const Elbow& elbow, double angle, const ArmSigns* signs, const Vector7& near, Vector7& q) const;
 
-  /// The arm angle that three turns of a group make whose axes are in line at every arm angle; of q the turns about the
-  /// first and the third axis count.
+  /// The arm angle that three turns of a group make whose axes are almost in line at every arm angle; of q the turns
+  /// about the first and the third axis count.
   double angleOf(const Elbow& elbow, bool shoulder, const Vector7& q) const;
+
+  /// A straight elbow bent by what the distance does not tell, so that a group whose axes are then almost in line has
+  /// the turns about its first and third axis that q has: any two, where that bends it little enough. Else empty.
+  std::optional<Elbow> bentFor(const Elbow& straight, bool shoulder, const Vector7& q) const;
 
   /// Arm angles at which the first and the third axis of a group are nearest to being in line, one way and the other;
   /// any, where they are as near at all of them.
@@ -95,7 +105,8 @@ class ArmPose {
   const Elbow& elbowOf(const SelfMotionNode& node) const;
 
  private:
-  void addElbow(double q, const Vector3& wrist, const Vector3& axis);
+  Elbow elbowAt(double q) const;
+  void joinElbows();
   static void recentre(Elbow& elbow);
   Vector7 rates(const Elbow& elbow, const Vector7& q) const;
 

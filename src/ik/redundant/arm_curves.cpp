@@ -21,6 +21,7 @@ constexpr double kMostOff = 0.1;      // Of a step, of what speeds tell.
 constexpr int kCircleNodes = 16;
 
 enum Line { kShoulder = 1, kWrist = 2 };
+constexpr int kBoth = kShoulder | kWrist;
 
 /// Values of the arm angle at which axes are in line, or nearest to it.
 struct Event {
@@ -36,11 +37,9 @@ class Circle {
       : pose_(pose), arm_(std::move(arm)), place_(elbow), set_(set) {}
 
   void add() {
+    const double in_line = elbow().straight ? ArmPose::kFlat : kInLine;
     for (Line line : {kShoulder, kWrist}) {
-      const ArmPose::Side& side = sideOf(line);
-      const double tilt =
-          std::hypot(side.before(2, 0), side.before(2, 1)) + std::hypot(side.behind(0, 2), side.behind(1, 2));
-      if (tilt <= kInLine) {
+      if (sideOf(line).tilt() <= in_line) {
         always_ |= line;
       } else {
         addEvents(line);
@@ -48,8 +47,12 @@ class Circle {
     }
     std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.angle < b.angle; });
     joinEvents();
+    if (hasUntold()) {
+      set_.complete = false;
+      set_.note = "shoulder and wrist are almost in line at once beside a straight elbow";
+    }
     if (always_ != 0) {
-      addAlways();
+      isInLine(always_) ? addAlways() : addFlat();
     } else {
       addWays();
     }
@@ -60,6 +63,22 @@ class Circle {
   const ArmPose::Elbow& elbow() const { return arm_->elbows()[place_]; }
 
   const ArmPose::Side& sideOf(Line line) const { return line == kShoulder ? elbow().shoulder : elbow().wrist; }
+
+  /// All along the circle, to rounding.
+  bool isInLine(int lines) const {
+    const auto in_line = [&](Line line) { return (lines & line) == 0 || sideOf(line).tilt() <= kInLine; };
+    return in_line(kShoulder) && in_line(kWrist);
+  }
+
+  /// Where both groups are almost in line at once, a straight elbow's bend makes surfaces that are not told: the turns
+  /// of either leave the surface of the other's, or they cross at an event.
+  bool hasUntold() const {
+    if (!elbow().straight) return false;
+    if (always_ == kBoth) return !isInLine(kBoth);
+    return std::any_of(events_.begin(), events_.end(), [&](const Event& event) {
+      return event.in_line != kBoth && outOfLine(event.angle, kBoth) <= ArmPose::kFlat;
+    });
+  }
 
   void addEvents(Line line) {
     for (double angle : ArmPose::extremes(sideOf(line))) {
@@ -208,7 +227,7 @@ class Circle {
   /// Solutions at the angle at which axes are in line: circles on which two joints turn against each other, or sheets.
   void addCrossing(const Event& event) {
     if (event.in_line == 0) return;
-    if ((event.in_line | always_) == (kShoulder | kWrist)) {
+    if ((event.in_line | always_) == kBoth) {
       addSheet({0, 4}, {1, 1}, [angle = event.angle](const Vector7&) { return angle; });
       return;
     }
@@ -238,7 +257,7 @@ class Circle {
   /// Axes in line all along the circle: the turns of two joints tell the arm angle, the other group follows.
   void addAlways() {
     const bool shoulder = (always_ & kShoulder) != 0;
-    const bool both = always_ == (kShoulder | kWrist);
+    const bool both = always_ == kBoth;
     std::vector<int> free = shoulder ? std::vector<int>{0, 2} : std::vector<int>{4, 6};
     if (both) free.push_back(4);
     const auto angleOf = [arm = arm_, place = place_, shoulder](const Vector7& q) {
@@ -246,6 +265,28 @@ class Circle {
     };
     for (int sign : {1, -1}) {
       if (!both || sign > 0) addSheet(free, {sign, sign}, angleOf);
+    }
+  }
+
+  /// Axes almost in line beside a straight elbow: by as little as rounding leaves it bent the line comes to where any
+  /// two turns of the group have it.
+  void addFlat() {
+    const bool shoulder = (always_ & kShoulder) != 0;
+    const std::vector<int> free = shoulder ? std::vector<int>{0, 2} : std::vector<int>{4, 6};
+    for (int sign : {1, -1}) {
+      const ArmSigns signs = shoulder ? ArmSigns{0, sign} : ArmSigns{sign, 0};
+      Vector7 member;
+      arm_->solve(elbow(), 0.0, &signs, Vector7::Zero(), member);
+      set_.sheets.push_back(
+          {member, free, false, "", [arm = arm_, place = place_, signs, shoulder](const VectorX& wished, VectorX& q) {
+             const Vector7 near = wished;
+             const std::optional<ArmPose::Elbow> bent = arm->bentFor(arm->elbows()[place], shoulder, near);
+             if (!bent) return false;
+             Vector7 found;
+             arm->solve(*bent, arm->angleOf(*bent, shoulder, near), &signs, near, found);
+             q = found;
+             return true;
+           }});
     }
   }
 

@@ -75,7 +75,12 @@ double distanceToCurve(PoseCurve& pose, const SelfMotionCurve& curve, const Vect
     const SelfMotionNode& b = curve.nodes[i + 1];
     const double h = b.arc - a.arc;
     const Vector7 from = pose.difference(a.q, q);
-    if (h <= 0.0 || pose.norm(from) > 1.1 * h + reach) continue;
+    const double away = pose.norm(from);
+    if (h <= 0.0 || away > 1.1 * h + reach) {
+      // Nor is what ends before the curve can have come so far.
+      while (i + 2 < curve.nodes.size() && 1.1 * (curve.nodes[i + 2].arc - a.arc) < away - reach) ++i;
+      continue;
+    }
     double share = std::clamp(pose.dot(from, a.tangent) / h, 0.0, 1.0);
     SelfMotionNode node = a;
     for (int k = 0; k < 6; ++k) {
@@ -154,6 +159,7 @@ void ComponentFinder::addValue(double value) {
 bool ComponentFinder::addStart(const Vector7& q, double reach) {
   SelfMotionNode node;
   if (!pose_.correct(q, reach, node)) return false;
+  if (node.gain <= kBlurredGain && addSurface(node.q)) return true;
   // Near a singularity rounding leaves open where across the curve a solution lies.
   const double same = std::clamp(kRounding / node.gain, kSamePoint, kSliceReach);
   for (const SelfMotionCurve& curve : curves_) {
@@ -195,11 +201,10 @@ void ComponentFinder::branchOut(const Vector7& crossing) {
     return;
   }
   // A surface within rounding has curves everywhere.
-  if (form.is_known && std::abs(form.values[1]) <= kLeastForm) return;
-  const Eigen::Matrix<double, kRedundantJoints, 2> plane = pose_.weakestPlane(crossing);
+  if (form.isSurface()) return;
   for (int k = 0; k < 2 * kCrossingWays; ++k) {
     const double angle = kPi * k / kCrossingWays;
-    const Vector7 way = std::cos(angle) * plane.col(0) + std::sin(angle) * plane.col(1);
+    const Vector7 way = std::cos(angle) * form.plane.col(0) + std::sin(angle) * form.plane.col(1);
     addStart(crossing + kCrossingStep * way, kCrossingStep);
   }
 }

@@ -33,9 +33,10 @@ class ComponentFinder {
   int unexplained() const { return unexplained_; }
 
  private:
-  static constexpr double kSamePoint = 1e-6;   // [rad] A configuration this near to a curve is on it.
-  static constexpr double kSliceReach = 1e-3;  // [rad] A slice's solution is this near to the curve at most.
-  static constexpr double kLeastForm = 1e-4;   // Of second derivatives over the chain's length: below it they are none.
+  static constexpr double kSamePoint = 1e-6;    // [rad] A configuration this near to a curve is on it.
+  static constexpr double kSliceReach = 1e-3;   // [rad] A slice's solution is this near to the curve at most.
+  static constexpr double kBlurredGain = 1e-9;  // Of a node that may be on a surface.
+  static constexpr double kLeastForm = PoseCurve::kLeastForm;
 
   struct Free {
     int slice = 0;
@@ -45,6 +46,7 @@ class ComponentFinder {
   void coverGrid(const SelfMotionCurve& curve);
   void branchOut(const Vector7& crossing);
   void addFree(const Free& free);
+  bool addSurface(const Vector7& q);
   void addSheet(const RedundantSolution& told, bool parameter_moves);
   std::function<bool(const VectorX&, VectorX&)> membersOf(const RedundantSolution& member, bool parameter_moves);
   bool isAlone(const SelfMotionSheet& sheet);

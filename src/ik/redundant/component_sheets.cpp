@@ -1,18 +1,84 @@
+#include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <cmath>
 #include <limits>
 
 #include "component_finder.h"
 #include "screwline/ik/numerical/numerical_solver.h"
+#include "screwline/spatial/rotation.h"
+#include "screwline/spatial/screw.h"
 
 namespace screwline {
 namespace {
 
 constexpr double kRegular = 1e-6;        // Gain of a node from which a curve can be followed.
-constexpr double kBlurredGain = 1e-11;   // Below it curves are known to 1e-3 rad at best.
+constexpr double kMostError = 1e-10;     // Of a surface's members.
+constexpr int kSurfaceSamples = 6;       // Of each turn.
+constexpr int kSteps = 2;                // Of Newton's method: from a tangent plane.
+constexpr double kOnSurface = 1e-6;      // [rad]
+constexpr double kWeak = 1e-6;           // Of the strongest direction: not stepped along.
 constexpr std::size_t kMostPoints = 16;  // Solutions without a curve that are told.
 constexpr double kSameSolution = 4e-6;   // [rad] Solutions this near to each other have one answer.
+
+/// A surface along which the pose is met to rounding or little more: all members with wished values of two joints.
+class Surface {
+ public:
+  /// `plane` is tangent to it at `base`. The two joints are those that turn most along it.
+  Surface(const SerialChain& chain, const Pose& target, const Vector7& base,
+          const Eigen::Matrix<double, kRedundantJoints, 2>& plane)
+      : chain_(chain), target_(target), base_(base) {
+    double most = 0.0;
+    for (int i = 0; i < kRedundantJoints; ++i) {
+      for (int k = i + 1; k < kRedundantJoints; ++k) {
+        Eigen::Matrix2d rows;
+        rows << plane.row(i), plane.row(k);
+        if (std::abs(rows.determinant()) <= most) continue;
+        most = std::abs(rows.determinant());
+        free_ = {i, k};
+        along_ = plane * rows.inverse();
+      }
+    }
+  }
+
+  const std::array<int, 2>& free() const { return free_; }
+
+  /// From the tangent plane by Newton steps of the five other joints. False where an error is left.
+  bool at(const Vector7& wished, Vector7& q) const {
+    q = base_ + along_ * Eigen::Vector2d(wished[free_[0]] - base_[free_[0]], wished[free_[1]] - base_[free_[1]]);
+    Matrix6X J(6, kRedundantJoints);
+    for (int i = 0;; ++i) {
+      Vector6 error = poseDifference(target_, geometricJacobian(chain_, q, J));
+      error.head<3>() /= chain_.characteristicLength();
+      if (i == kSteps) return error.norm() <= kMostError;
+      J.topRows<3>() /= chain_.characteristicLength();
+      for (int joint : free_) J.col(joint).setZero();
+      Eigen::ColPivHouseholderQR<Matrix6X> qr;
+      qr.setThreshold(kWeak);
+      q += qr.compute(J).solve(error);
+    }
+  }
+
+  /// Whether it comes round in both turns.
+  bool isWhole() const {
+    Vector7 wished = base_;
+    Vector7 q;
+    for (int i = 0; i < kSurfaceSamples * kSurfaceSamples; ++i) {
+      wished[free_[0]] = base_[free_[0]] + kTwoPi * (i % kSurfaceSamples) / kSurfaceSamples;
+      wished[free_[1]] = base_[free_[1]] + kTwoPi * (i / kSurfaceSamples) / kSurfaceSamples;
+      if (!at(wished, q)) return false;
+    }
+    return true;
+  }
+
+ private:
+  SerialChain chain_;
+  Pose target_;
+  Vector7 base_;
+  std::array<int, 2> free_{0, 1};
+  Eigen::Matrix<double, kRedundantJoints, 2> along_;  ///< Rates of all joints by the two.
+};
 
 bool sameBranch(const RedundantSolution& a, const RedundantSolution& b) {
   return a.free == b.free && a.sign == b.sign && a.rank == b.rank;
@@ -104,37 +170,49 @@ RedundantSolution ComponentFinder::refined(const RedundantSolution& member) cons
   return member;
 }
 
-/// A continuum at one value of the parameter: a curve like others, if the Jacobian sees it.
+/// Where a surface solves the pose within rounding, curves to rounding are anywhere on it: it is told as a surface, if
+/// it goes on as it starts.
+bool ComponentFinder::addSurface(const Vector7& q) {
+  const auto holds = [&](const SelfMotionSheet& sheet) {
+    VectorX member;
+    return sheet.free.size() == 2 && !sheet.parameter_moves && sheet.member_at(q, member) &&
+           pose_.norm(pose_.difference(member, q)) <= kOnSurface;
+  };
+  if (std::any_of(sheets_.begin(), sheets_.end(), holds)) return true;
+  const PoseCurve::SecondOrder form = pose_.secondOrder(q);
+  if (!form.isSurface()) return false;
+  const Surface surface(pose_.chain(), target_, q, form.plane);
+  if (!surface.isWhole()) return false;
+  SelfMotionSheet sheet;
+  sheet.member = q;
+  sheet.free = {surface.free()[0], surface.free()[1]};
+  sheet.member_at = [surface](const VectorX& wished, VectorX& member) {
+    Vector7 found;
+    if (!surface.at(wished, found)) return false;
+    member = found;
+    return true;
+  };
+  sheets_.push_back(sheet);
+  return true;
+}
+
+/// A continuum at one value of the parameter: a curve like others, if the Jacobian sees it; or a surface.
 void ComponentFinder::addFree(const Free& free) {
-  const int joint = [&] {
-    int i = 0;
-    while ((free.solution.free >> i & 1U) == 0U) ++i;
-    return i;
-  }();
+  int joint = 0;
+  while ((free.solution.free >> joint & 1U) == 0U) ++joint;
   RedundantSolutions members;
-  bool found = false;
-  bool blurred = false;
-  for (double value : {0.3, 1.9, -1.2, 2.6, -2.8, 1.1, -0.4, -1.9}) {
+  for (double value : {0.3, 1.9, -1.2, 2.6}) {
     Vector7 wished = Vector7::Zero();
     wished[joint] = value;
     solver_->solveAt(target_, free.solution.q[solver_->parameterJoint()], wished, members);
     for (const RedundantSolution& member : members) {
       if (!sameBranch(member, free.solution)) continue;
-      // Where the error has no second order either, a surface solves the pose within rounding, and curves to rounding
-      // are anywhere on it: several starts are tried, and no number of them is enough where rounding blurs the curves.
-      const PoseCurve::SecondOrder form = pose_.secondOrder(member.q);
-      const bool surface = form.is_known && std::abs(form.values[1]) <= kLeastForm;
-      const double reach = surface ? kPi : kSliceReach;
       SelfMotionNode node;
-      if (!pose_.correct(member.q, reach, node) || !(surface || node.gain > kRegular)) continue;
-      if (!addStart(node.q, reach)) continue;
-      if (!surface) return;
-      found = true;
-      blurred = blurred || node.gain < kBlurredGain;
+      if (addSurface(member.q)) return;
+      if (pose_.correct(member.q, kSliceReach, node) && node.gain > kRegular && addStart(node.q, kSliceReach)) return;
     }
   }
-  if (blurred) ++unexplained_;
-  if (!found) addSheet(free.solution, false);
+  addSheet(free.solution, false);
 }
 
 void ComponentFinder::finishSheets() {

@@ -72,7 +72,9 @@ class Walk {
       h_ = std::max(h_, least);
       const bool shortest = h_ <= least;
       const Vector7 ahead = at_.q + h_ * at_.tangent + 0.5 * h_ * h_ * bend_;
-      const bool found = pose_.correct(ahead, (shortest ? 1.0 : kMostCorrection) * h_, next);
+      const double reach = (shortest ? 1.0 : kMostCorrection) * h_;
+      const bool found = (at_.gain < kBlurredGain && pose_.correctAbove(kBlurredGain, ahead, reach, next)) ||
+                         pose_.correct(ahead, reach, next);
       double along = found ? way_ * pose_.dot(next.tangent, at_.tangent) : 0.0;
       if (shortest && (!found || std::abs(along) < 0.5)) return jump(crossings);
       const bool blurred = found && std::max(at_.gain, next.gain) < kBlurredGain;

@@ -106,19 +106,14 @@ double PoseCurve::gainAt(const Vector7& q) {
   return Factor(scaledJacobian()).gain();
 }
 
-Eigen::Matrix<double, kRedundantJoints, 2> PoseCurve::weakestPlane(const Vector7& q) {
-  geometricJacobian(chain_, q, J_);
-  const Eigen::JacobiSVD<ScaledJacobian> svd(scaledJacobian(), Eigen::ComputeFullV);
-  return unit_.asDiagonal() * svd.matrixV().rightCols<2>();
-}
-
 PoseCurve::SecondOrder PoseCurve::secondOrder(const Vector7& q) {
   geometricJacobian(chain_, q, J_);
   const Eigen::JacobiSVD<ScaledJacobian> svd(scaledJacobian(), Eigen::ComputeFullU | Eigen::ComputeFullV);
   SecondOrder form;
+  const Eigen::Matrix<double, kRedundantJoints, 2> plane = svd.matrixV().rightCols<2>();
+  form.plane = unit_.asDiagonal() * plane;
   form.gain = svd.singularValues()[5];
   if (svd.singularValues()[4] < kSecondWeakest) return form;
-  const Eigen::Matrix<double, kRedundantJoints, 2> plane = svd.matrixV().rightCols<2>();
   const Vector6 away = svd.matrixU().col(5);
   Eigen::Matrix2d Q;
   for (int k = 0; k < 2; ++k) {
@@ -161,7 +156,7 @@ bool PoseCurve::between(const SelfMotionNode& a, const SelfMotionNode& b, double
 Vector7 PoseCurve::difference(const Vector7& a, const Vector7& b) const {
   Vector7 d = b - a;
   for (int i = 0; i < kRedundantJoints; ++i) {
-    if (isRevolute(i)) d[i] = std::remainder(d[i], kTwoPi);
+    if (std::abs(d[i]) > kPi && isRevolute(i)) d[i] = std::remainder(d[i], kTwoPi);
   }
   return d;
 }

@@ -40,12 +40,13 @@ class PoseCurve {
   /// Least pivot of the Jacobian, lengths over the chain's.
   double gainAt(const Vector7& q);
 
-  /// The two directions that move the tip least at a configuration, of norm 1 and across each other.
-  Eigen::Matrix<double, kRedundantJoints, 2> weakestPlane(const Vector7& q);
-
-  /// What the pose's error does to second order along the two directions of weakestPlane(), in the direction that the
-  /// tip is moved least in: a quadratic form.
+  /// What the pose's error does to second order along the two directions that move the tip least, in the direction that
+  /// it is moved least in: a quadratic form.
   struct SecondOrder {
+    /// Whether the error is zero to second order as well: a surface solves the pose within rounding.
+    bool isSurface() const { return is_known && std::abs(values[1]) <= kLeastForm; }
+
+    Eigen::Matrix<double, kRedundantJoints, 2> plane;    ///< The two directions, of norm 1 and across each other.
     bool is_known = false;                               ///< Not where a third direction is as weak.
     double gain = 0.0;                                   ///< Least singular value of the Jacobian.
     Eigen::Vector2d slopes{0.0, 0.0};                    ///< Of the error in that direction, along `vectors`.
@@ -58,6 +59,9 @@ class PoseCurve {
   double norm(const Vector7& a) const { return std::sqrt(dot(a, a)); }
   /// b - a, revolute joints by the nearest full turn.
   Vector7 difference(const Vector7& a, const Vector7& b) const;
+  /// Form values [second derivatives over the chain's length] below it are none.
+  static constexpr double kLeastForm = 1e-4;
+
   bool isRevolute(int joint) const { return chain_.joint(joint).isRevolute(); }
 
  private:

@@ -17,6 +17,7 @@ constexpr double kBand = 1e-9;          // [rad, m] within which limits are deci
 constexpr double kExact = 1e-12;        // [m, rad] errors that need no polish.
 constexpr double kTolerated = 1e-10;    // [m, rad] errors where nothing better can be had.
 constexpr double kSingularGain = 1e-9;  // Of the Jacobian's pivots.
+constexpr double kAside = 0.3;          // [rad] from a place of a surface where it may have no member.
 
 bool isWithinAll(const SerialChain& chain, const Vector7& q) {
   for (int i = 0; i < kRedundantJoints; ++i) {
@@ -87,10 +88,16 @@ SelfMotionAnswer answerOf(PoseCurve& pose, const SelfMotionCurve& curve, const S
   return answer;
 }
 
-/// As continua inside of a plan are described.
-Candidate candidateOf(const SelfMotionSheet& sheet) {
+/// As continua inside of a plan are described. Where a sum of angles is given, the member with the seed's other values
+/// is in its best turn; or one beside it, where there is none.
+Candidate candidateOf(const SelfMotionSheet& sheet, const Vector7& seed) {
   Candidate candidate;
   candidate.q = sheet.member;
+  for (double aside : {0.0, kAside}) {
+    VectorX wished = seed;
+    for (int joint : sheet.free) wished[joint] += aside;
+    if (sheet.free.size() > 1 && sheet.member_at(wished, candidate.q)) break;
+  }
   candidate.branch = sheet.branch;
   candidate.free = sheet.free;
   candidate.member = sheet.member_at;
@@ -150,7 +157,8 @@ SelfMotionAnswers SelfMotionSolver::answer(const SelfMotionQuestion& question) c
       result.answers.push_back(answerOf(pose, curve, interval, question, seed, parameterJoint()));
   }
   for (const SelfMotionSheet& sheet : set.sheets) {
-    const SelfMotionAnswer answer = answerOf(chain_, question.target, candidateOf(sheet), seed, question.ignore_limits);
+    const SelfMotionAnswer answer =
+        answerOf(chain_, question.target, candidateOf(sheet, seed), seed, question.ignore_limits);
     if (answer.within_limits || question.ignore_limits) {
       result.answers.push_back(answer);
     } else {

@@ -71,7 +71,7 @@ void conclude(const SerialChain& chain, bool closed_form, SelfMotionSet& set) {
   if (!closed_form) {
     set.note = "curves that no start of the numerical search met are missing";
   } else if (!set.complete) {
-    set.note = "a slice has solutions that no curve explains";
+    if (set.note.empty()) set.note = "a slice has solutions that no curve explains";
   } else if (broken) {
     set.note = "a curve could not be followed to its end";
   } else if (crossing) {
@@ -145,9 +145,9 @@ SelfMotionSet SelfMotionSolver::trace(const SelfMotionQuestion& question) const 
   PoseCurve pose = poseCurve(question.target);
   SelfMotionSet set;
   if (pose.arm() != nullptr) {
+    set.complete = true;
     addArmCurves(pose, pose.arm(), set);
     if (question.seed.size() > 0) putFirst(pose, question.seed, set.curves);
-    set.complete = true;
     finish(question, pose, 0, set.curves);
     nameSheets(question.target, set.sheets);
   } else {
