@@ -4,6 +4,7 @@
 #include "kdl_unit.h"
 #include "redundant_arms.h"
 #include "robots.h"
+#include "screwline/ik/inverse_kinematics.h"
 #include "screwline/ik/redundant/self_motion_solver.h"
 #include "screwline/kinematics/forward.h"
 
@@ -77,6 +78,17 @@ void answerAll(benchmark::State& state, const SerialChain& chain) {
   for (auto _ : state) benchmark::DoNotOptimize(arm.solver.answer(arm.next()));
 }
 
+/// Six joints and the direction of the tool's x axis, about which the last joint does not turn: self-motions.
+void answerDirection(benchmark::State& state, const std::string& robot) {
+  const InverseKinematics ik(Robot(robot).chain, Task::pointing(0));
+  test::ArmMaker maker(kSeed);
+  std::vector<IkRequest> requests(256);
+  for (IkRequest& request : requests)
+    request.target = forwardKinematics(ik.chain(), test::randomWithin(maker, ik.chain()));
+  std::size_t i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(ik.solve(requests[i++ % 256]));
+}
+
 void registerAll() {
   benchmark::RegisterBenchmark("forward_kdl/rrprrr", forwardKdl, "rrprrr");
   const std::vector<std::pair<std::string, SerialChain>> arms = {{"iiwa14", test::iiwa14()}, {"panda", test::panda()}};
@@ -88,6 +100,15 @@ void registerAll() {
     benchmark::RegisterBenchmark(("trace/" + arm.first).c_str(), traceAll, chain);
     benchmark::RegisterBenchmark(("answer/" + arm.first).c_str(), answerAll, chain);
   }
+  // No closed form with one joint given: elimination; and a plan for three parallel axes.
+  test::RedundantArmMaker maker(kSeed);
+  for (const auto& [name, kind] : {std::pair("general", test::RedundantArmMaker::kGeneral), std::pair("rail_ur", 5)}) {
+    const SerialChain chain = maker.makeArm(kind, true);
+    benchmark::RegisterBenchmark((std::string("answer/") + name).c_str(), answerAll, chain);
+    benchmark::RegisterBenchmark((std::string("any_within_limits/") + name).c_str(), anyWithinLimits, chain);
+  }
+  for (const char* robot : {"puma560", "ur5", "jaco2_6dof"})
+    benchmark::RegisterBenchmark((std::string("answer_direction/") + robot).c_str(), answerDirection, robot);
 }
 
 }  // namespace

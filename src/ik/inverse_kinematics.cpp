@@ -346,11 +346,7 @@ std::optional<InverseOutline> InverseKinematics::outline() const {
   if (self.plan && self.plan->task.size() == self.task.size()) return self.plan->plan.outline();
   if (self.parallel) return self.parallel->plan.outline();
   if (self.completed) return self.completed->outline();
-  const bool given = self.redundant && self.redundant->closedForm() && self.redundant->closedForm()->compiledOnce();
-  if (!given) return std::nullopt;
-  std::optional<InverseOutline> outline = self.redundant->closedForm()->others().outline();
-  if (outline) outline->given = self.redundant->parameterJoint();
-  return outline;
+  return self.redundant && self.redundant->closedForm() ? self.redundant->closedForm()->outline() : std::nullopt;
 }
 
 /// Candidates into the list; false where there was none.

@@ -1,4 +1,5 @@
-// Tasks of as many rows as the chain has joints that leave some of x y z open, or one of rx ry rz.
+// Tasks that leave some of x y z open, one of rx ry rz, or the tool's turn, of as many rows as the chain has joints or
+// one less.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -7,6 +8,7 @@
 #include "ik_gate.h"
 #include "property/model_random.h"
 #include "screwline/ik/numerical/numerical_solver.h"
+#include "shipped_robots.h"
 
 namespace screwline {
 namespace {
@@ -136,6 +138,78 @@ TEST(IkOpenRows, ATurnAboutABaseAxisLeftOpen) {
 
 TEST(IkOpenRows, PositionsAndTheToolsTurnLeftOpen) {
   run(Open::kPositionsAndToolTurn, "a direction, positions open", 3000);
+}
+
+/// Rows for one joint more than rows: any height, or the direction of an axis of the tool.
+Task sparingTask(bool direction, int joints, RandomModel& random) {
+  const int axis = random.integer(0, 2);
+  std::vector<int> rows;
+  for (int i = 0; i < 3; ++i) {
+    if (!direction || i != axis) rows.push_back((direction ? Task::kFirstToolRow : 3) + i);
+  }
+  for (int i = 0; static_cast<int>(rows.size()) < joints - 1; ++i) rows.push_back((axis + i) % 3);
+  return Task::fromRows(rows);
+}
+
+/// The laws, and that what a search finds lies on the curves that are told.
+void expectSelfMotions(const SerialChain& chain, const Task& task, const VectorX& q, Tally& tally) {
+  const InverseKinematics ik(chain, task);
+  ++tally.arms;
+  tally.exact += ik.complete() ? 1 : 0;
+  const VectorX push = VectorX::LinSpaced(chain.size(), -9e-4, 7e-4);
+  const bool ignore_limits = tally.arms % 2 == 0;
+  const IkGate gate(ik, q, ignore_limits);
+  const GateVerdict verdict = IkGate(ik, q, ignore_limits).judge(push);
+  EXPECT_TRUE(verdict.isLawful()) << ik.method() << "\n  " << verdict.message << "\n  q = " << q.transpose();
+  ++tally.poses;
+  tally.complete += verdict.complete ? 1 : 0;
+  if (!verdict.complete || !ignore_limits) return;
+  const IkResult result = ik.solve(gate.request());
+  SearchOptions options;
+  options.restarts = 6;
+  options.timeout = 20.0;
+  options.descent.honour_limits = false;
+  for (const VectorX& found : search(chain, task, forwardKinematics(chain, q), {q}, options).solutions) {
+    ++tally.searched;
+    if (gate.isKnown(found, result, 1e-5)) continue;
+    ++tally.missed;
+    ADD_FAILURE() << ik.method() << " misses " << found.transpose() << " of the pose of " << q.transpose();
+  }
+}
+
+void expectMostComplete(const std::string& name, const Tally& tally) {
+  std::printf("%-13s %3d of %3d exact, %3d of %3d poses complete; of %4d searched solutions %d missed\n", name.c_str(),
+              tally.exact, tally.arms, tally.complete, tally.poses, tally.searched, tally.missed);
+  EXPECT_GE(100 * tally.exact, 97 * tally.arms);
+  EXPECT_GE(10 * tally.complete, 9 * tally.poses);
+}
+
+TEST(IkOpenRows, OneJointToSpareOfRandomArms) {
+  Tally tally;
+  const unsigned count = test::wished("SCREWLINE_ARMS", 40);
+  for (unsigned seed = 4000; seed < 4000 + count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    RandomModel random(seed);
+    const int joints = random.integer(5, 6);
+    const SerialChain chain = armOf(joints, seed, random);
+    const Task task = sparingTask(random.chance(0.5), joints, random);
+    if (!isRegular(chain, task, configurationOf(chain, 0.0, random), 1e-6)) continue;
+    expectSelfMotions(chain, task, configurationOf(chain, random.chance(0.5) ? 0.4 : 0.0, random), tally);
+  }
+  expectMostComplete("random arms", tally);
+}
+
+TEST(IkOpenRows, OneJointToSpareOfArmsOfMakers) {
+  for (const char* name : {"puma560", "ur5", "kr6_r900", "stanford_arm", "jaco2_6dof"}) {
+    const SerialChain chain = test::shippedRobot(SCREWLINE_SOURCE_DIR, name).chain;
+    RandomModel random(5);
+    Tally tally;
+    for (int k = 0; k < 6; ++k) {
+      const Task task = sparingTask(k % 2 == 0, 6, random);
+      expectSelfMotions(chain, task, chain.clamped(configurationOf(chain, 0.2, random)), tally);
+    }
+    expectMostComplete(name, tally);
+  }
 }
 
 /// What a turn about the base's x moves is no free row.

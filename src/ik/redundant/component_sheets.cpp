@@ -200,16 +200,19 @@ bool ComponentFinder::addSurface(const Vector7& q) {
 void ComponentFinder::addFree(const Free& free) {
   int joint = 0;
   while ((free.solution.free >> joint & 1U) == 0U) ++joint;
+  const auto follow = [this](const RedundantSolution& member) {
+    SelfMotionNode node;
+    if (addSurface(member.q)) return true;
+    return pose_.correct(member.q, kSliceReach, node) && node.gain > kRegular && addStart(node.q, kSliceReach);
+  };
+  if (follow(free.solution)) return;
   RedundantSolutions members;
   for (double value : {0.3, 1.9, -1.2, 2.6}) {
     Vector7 wished = Vector7::Zero();
     wished[joint] = value;
     solver_->solveAt(target_, free.solution.q[solver_->parameterJoint()], wished, members);
     for (const RedundantSolution& member : members) {
-      if (!sameBranch(member, free.solution)) continue;
-      SelfMotionNode node;
-      if (addSurface(member.q)) return;
-      if (pose_.correct(member.q, kSliceReach, node) && node.gain > kRegular && addStart(node.q, kSliceReach)) return;
+      if (sameBranch(member, free.solution) && follow(member)) return;
     }
   }
   addSheet(free.solution, false);

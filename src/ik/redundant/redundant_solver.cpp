@@ -121,6 +121,13 @@ void RedundantSolver::solveAt(const Pose& target, double value, const Vector7& p
   }
 }
 
+std::optional<InverseOutline> RedundantSolver::outline() const {
+  if (others_.plan() == nullptr || !compiledOnce()) return std::nullopt;
+  InverseOutline outline = others_.plan()->outline();
+  outline.given = parameter_;
+  return outline;
+}
+
 std::string RedundantSolver::branchName(const RedundantSolution& solution) const {
   return others_.branchName(tagsOf(solution));
 }

@@ -14,6 +14,23 @@ void solveBy(const ClosedFormPlan& plan, const Pose& target, const double* prefe
   solutions.count = found.count;
 }
 
+void add(const PlanSolution& solution, SixJointSolutions& solutions) {
+  if (static_cast<std::size_t>(solutions.count) == kCapacity) {
+    solutions.complete = false;
+  } else {
+    solutions.solutions[static_cast<std::size_t>(solutions.count++)] = solution;
+  }
+}
+
+/// A member of each continuum that leaves one of the pair free: the preferred value may lie beyond its ends.
+void addMembers(const ParallelPlan& plan, const Pose& target, SixJointSolutions& solutions) {
+  for (const ParallelSheet& sheet : plan.sheets(target)) {
+    for (const SheetStretch& stretch : sheet.stretches()) {
+      for (int elbow : {1, -1}) add(sheet.member(0.5 * (stretch.from + stretch.to), elbow), solutions);
+    }
+  }
+}
+
 void solveBy(const ParallelPlan& plan, const Pose& target, const double* preferred, SixJointSolutions& solutions) {
   ParallelSolutions found;
   plan.solve(target, preferred, found);
@@ -21,17 +38,17 @@ void solveBy(const ParallelPlan& plan, const Pose& target, const double* preferr
   solutions.count = found.count;
   // What is clamped may be none, what is open has more.
   solutions.complete = found.clamped == 0 && found.open == 0;
+  if (found.open != 0) addMembers(plan, target, solutions);
 }
 
 void solveBy(const AlgebraicSolver& solver, const Pose& target, const double*, SixJointSolutions& solutions) {
   AlgebraicSolutions found;
   solver.solve(target, found);
-  solutions.complete = found.complete && static_cast<std::size_t>(found.count) <= kCapacity;
+  solutions.complete = found.complete;
   for (const std::array<double, 6>& root : found) {
-    if (static_cast<std::size_t>(solutions.count) == kCapacity) break;
-    PlanSolution& solution = solutions.solutions[static_cast<std::size_t>(solutions.count++)];
-    solution = PlanSolution();
+    PlanSolution solution;
     std::copy(root.begin(), root.end(), solution.q.begin());
+    add(solution, solutions);
   }
 }
 
@@ -75,13 +92,6 @@ bool SixJointSolver::isDouble(const PlanSolution& solution) const {
   if (plan() != nullptr) return plan()->isDouble(solution);
   const auto* parallel = std::get_if<ParallelPlan>(&method_);
   return parallel != nullptr && parallel->isDouble(solution);
-}
-
-std::optional<InverseOutline> SixJointSolver::outline() const {
-  if (plan() != nullptr) return plan()->outline();
-  const auto* parallel = std::get_if<ParallelPlan>(&method_);
-  if (parallel == nullptr) return std::nullopt;
-  return parallel->outline();
 }
 
 }  // namespace screwline

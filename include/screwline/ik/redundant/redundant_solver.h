@@ -46,6 +46,8 @@ class RedundantSolver {
   bool compiledOnce() const { return parameter_ == 0 || parameter_ == kRedundantJoints - 1; }
   /// Method of the six others (at value zero).
   const SixJointSolver& others() const { return others_; }
+  /// Of the others' plan, where one serves every value; else empty.
+  std::optional<InverseOutline> outline() const;
   std::string branchName(const RedundantSolution& solution) const;
   /// Whether two branches meet in this one.
   bool isDouble(const RedundantSolution& solution) const;

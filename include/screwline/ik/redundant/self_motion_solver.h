@@ -59,12 +59,13 @@ class PoseCurve;
 class ReachMargin;
 
 /// Self-motions of a chain of seven joints for whole poses: every connected component of the solution set as a curve
-/// (Burdick 1989), cut exactly by joint limits. Where one joint given leaves a closed form, slices of all branches at
-/// 256 values of it (64 of a middle joint) find the curves; each curve is followed by predictor and
-/// corrector along the null space, so folds, where branches meet and the parameter turns back, are points as any other.
-/// Else numerical search finds the starts. S-R-S arms (three axes that meet, an elbow, three that meet, neighbours at
-/// right angles) need none of this: their curves are circles of the arm angle in closed form, none is missed, and axes
-/// in line and a straight elbow are told with all of their dimensions.
+/// (Burdick 1989), cut exactly by joint limits. Where one joint given leaves a closed form, or any six others
+/// where it is the first or the last, slices of all branches at 256 values of it (64 of a middle joint) find the
+/// curves; each curve is followed by predictor and corrector along the null space, so folds, where branches meet and
+/// the parameter turns back, are points as any other. Else numerical search finds the starts. S-R-S arms (three axes
+/// that meet, an elbow, three that meet, neighbours at right angles) need none of this: their curves are circles of the
+/// arm angle in closed form, none is missed, and axes in line and a straight elbow are told with all of their
+/// dimensions.
 ///
 /// Resolution. A curve may be missed where the parameter joint moves by less than 0.025 rad (0.1 of a middle joint; a
 /// 256th of the range in which a slide can reach the pose) over the whole of it, between two slices. Where the point

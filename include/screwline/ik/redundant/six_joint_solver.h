@@ -33,8 +33,8 @@ class SixJointSolver {
   /// 5 ms.
   static std::optional<SixJointSolver> compileAlgebraic(const SerialChain& chain);
 
-  /// No allocation. `preferred` (6 values) sets joints that turn out free. By elimination members of a continuum are
-  /// told as solutions.
+  /// No allocation, but at continua of a plan for three parallel axes. `preferred` (6 values) sets joints that turn out
+  /// free. By elimination members of a continuum are told as solutions.
   void solve(const Pose& target, const double* preferred, SixJointSolutions& solutions) const;
 
   bool isAlgebraic() const { return std::holds_alternative<AlgebraicSolver>(method_); }
@@ -45,8 +45,6 @@ class SixJointSolver {
   std::vector<BranchPart> branchParts() const;
   std::string branchName(const PlanSolution& solution) const;
   bool isDouble(const PlanSolution& solution) const;
-  /// Empty where elimination solves.
-  std::optional<InverseOutline> outline() const;
 
  private:
   using Method = std::variant<ClosedFormPlan, ParallelPlan, AlgebraicSolver>;
