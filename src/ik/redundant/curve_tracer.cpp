@@ -15,7 +15,6 @@ constexpr double kLongestStep = 0.5;
 constexpr double kFinerStep = 0.1;      // Where those reach from one curve to another.
 constexpr double kFineStep = 0.02;      // Where these do as well.
 constexpr double kShortestStep = 1e-7;  // Below it, branches that do not join cannot be told from a crossing.
-constexpr double kBlur = 1e-14;         // Over the gain, what rounding leaves open of a place; steps are not shorter.
 constexpr double kBlurredGain = 3e-8;   // Of a curve told twice within rounding: its orientation changes at random.
 constexpr double kConicStep = 1e-5;     // Where steps or the gain are as small, the conic tells how the curve runs.
 constexpr double kConicGain = 1e-6;
@@ -68,7 +67,7 @@ class Walk {
       passage_.pop_front();
       return;
     }
-    const double least = std::clamp(kBlur / at_.gain, kShortestStep, kLongestBlur);
+    const double least = std::clamp(PoseCurve::kErrorNoise / at_.gain, kShortestStep, kLongestBlur);
     for (;;) {
       SelfMotionNode next;
       h_ = std::max(h_, least);
