@@ -81,7 +81,7 @@ TEST_P(SingularCurves, NothingIsLostAndCurvesComeRound) {
   }
   std::printf("%-10s %4d poses, curves that do not come round %d, lists not complete %d\n", GetParam(), asked, open,
               incomplete);
-  EXPECT_LE(incomplete, asked / 30);
+  EXPECT_LE(incomplete, asked / 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, SingularCurves, testing::Values("panda", "gen3_7dof"));
@@ -153,6 +153,41 @@ TEST(SmallLoops, HoldWhatNewtonsMethodFindsBesideThem) {
     }
   }
   EXPECT_GE(loops, 4);
+}
+
+/// Two conditions met to 1e-12: the pose leaves open two joints' values, to 1e-10. Of any, the others follow.
+TEST(Surfaces, HoldMembersForAnyTwoTurns) {
+  const Arm arm("panda");
+  const auto kinds = test::singularKindsOf(arm.robot.chain, arm.robot.task);
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [](const test::SingularKind& one) {
+    return one.name == "shoulder aligned + axes 3, 5 parallel";
+  });
+  ASSERT_NE(kind, kinds.end());
+  test::SingularPoses maker(arm.robot.chain, kSeed);
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<double> angle(-kPi, kPi);
+  for (double offset : {1e-12, 1e-12, 1e-11}) {
+    const std::optional<VectorX> q = maker.make(*kind, offset);
+    ASSERT_TRUE(q);
+    const Pose target = forwardKinematics(arm.robot.chain, *q);
+    const SelfMotionSet set = arm.traced(*q);
+    EXPECT_TRUE(set.complete) << set.note;
+    const auto surface = std::find_if(set.sheets.begin(), set.sheets.end(), [](const SelfMotionSheet& sheet) {
+      return sheet.free.size() == 2 && !sheet.parameter_moves;
+    });
+    ASSERT_NE(surface, set.sheets.end());
+    for (int k = 0; k < 30; ++k) {
+      const VectorX wished = VectorX::NullaryExpr(7, [&] { return angle(random); });
+      VectorX member;
+      ASSERT_TRUE(surface->member_at(wished, member));
+      for (int joint : surface->free) EXPECT_NEAR(member[joint], wished[joint], 1e-12);
+      EXPECT_LE(poseDifference(target, forwardKinematics(arm.robot.chain, member)).norm(), 2e-10);
+    }
+    const IkResult result = arm.ik.solve(test::IkGate(arm.ik, *q, true).request());
+    EXPECT_TRUE(std::any_of(result.solutions.begin(), result.solutions.end(),
+                            [](const IkAnswer& answer) { return answer.self_motion.rows() == 2; }));
+    EXPECT_EQ(test::missedSolutions(arm.ik, *q, 8), 0);
+  }
 }
 
 /// A curve that goes over crossings and sharp bends is the same from wherever it is traced.

@@ -49,11 +49,11 @@ Range rangeOfSlide(const SerialChain& chain, int joint, const Pose& target) {
   const bool first = joint == 0;
   if (!first && joint != kRedundantJoints - 1) return {-far, far};
   const auto axis = [&](int i) { return chain.axes()[static_cast<std::size_t>(first ? i + 1 : i)]; };
-  double reach = 0.0;
-  for (int i = 0; i + 1 < kRedundantJoints - 1; ++i) reach += (axis(i + 1).point - axis(i).point).norm();
   for (int i = 0; i + 1 < kRedundantJoints; ++i) {
     if (axis(i).prismatic) return {-far, far};
   }
+  double reach = 0.0;
+  for (int i = 0; i + 1 < kRedundantJoints - 1; ++i) reach += (axis(i + 1).point - axis(i).point).norm();
   // Where the slide has to bring one point for another to be met.
   const Vector3 tip = chain.home().p;
   const Vector3 last = axis(kRedundantJoints - 2).point;
@@ -159,7 +159,7 @@ void ComponentFinder::addValue(double value) {
 bool ComponentFinder::addStart(const Vector7& q, double reach) {
   SelfMotionNode node;
   if (!pose_.correct(q, reach, node)) return false;
-  if (node.gain <= kBlurredGain && addSurface(node.q)) return true;
+  if (node.gain <= kSurfaceGain && addSurface(node.q)) return true;
   // Near a singularity rounding leaves open where across the curve a solution lies.
   const double same = std::clamp(kRounding / node.gain, kSamePoint, kSliceReach);
   for (const SelfMotionCurve& curve : curves_) {
@@ -190,7 +190,7 @@ void ComponentFinder::branchOut(const Vector7& crossing) {
   crossings_.push_back(crossing);
   const PoseCurve::SecondOrder form = pose_.secondOrder(crossing);
   const double size = std::abs(form.values[0]);
-  if (form.is_known && size > kLeastForm) {
+  if (form.is_known && size > PoseCurve::kLeastForm) {
     // Two curves cross where the form is zero.
     if (form.values[0] * form.values[1] > 0.0) return;
     const double share = std::sqrt(size / (size + std::abs(form.values[1])));

@@ -35,8 +35,7 @@ class ComponentFinder {
  private:
   static constexpr double kSamePoint = 1e-6;    // [rad] A configuration this near to a curve is on it.
   static constexpr double kSliceReach = 1e-3;   // [rad] A slice's solution is this near to the curve at most.
-  static constexpr double kBlurredGain = 1e-9;  // Of a node that may be on a surface.
-  static constexpr double kLeastForm = PoseCurve::kLeastForm;
+  static constexpr double kSurfaceGain = 1e-9;  // Of a node that may be on a surface.
 
   struct Free {
     int slice = 0;

@@ -151,8 +151,8 @@ void ComponentFinder::addPoint(const RedundantSolution& solution) {
 bool ComponentFinder::isAlone(const SelfMotionSheet& sheet) {
   if (sheet.free.size() > 1) return true;
   const PoseCurve::SecondOrder form = pose_.secondOrder(sheet.member);
-  if (sheet.free.size() == 1) return std::abs(form.values[1]) > kLeastForm;
-  return form.values[0] * form.values[1] > 0.0 && std::abs(form.values[0]) > kLeastForm &&
+  if (sheet.free.size() == 1) return std::abs(form.values[1]) > PoseCurve::kLeastForm;
+  return form.values[0] * form.values[1] > 0.0 && std::abs(form.values[0]) > PoseCurve::kLeastForm &&
          form.gain <= kSameSolution * std::abs(form.values[0]);
 }
 

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kFirstStep = 0.02;
 constexpr double kLongestStep = 0.5;
-constexpr double kFineStep = 0.02;      // Where those reach from one curve to another.
+constexpr double kFinerStep = 0.1;      // Where those reach from one curve to another.
+constexpr double kFineStep = 0.02;      // Where these do as well.
 constexpr double kShortestStep = 1e-7;  // Below it, branches that do not join cannot be told from a crossing.
-constexpr double kBlur = 1e-14;         // Over the gain, what rounding leaves open of a place; steps are not shorter.
 constexpr double kBlurredGain = 3e-8;   // Of a curve told twice within rounding: its orientation changes at random.
 constexpr double kConicStep = 1e-5;     // Where steps or the gain are as small, the conic tells how the curve runs.
 constexpr double kConicGain = 1e-6;
@@ -61,12 +61,13 @@ class Walk {
 
  private:
   void step(std::vector<Vector7>& crossings) {
-    if (!passage_.empty() || ((h_ < kConicStep || at_.gain < kConicGain) && startPassage(crossings))) {
+    const bool sharp = (h_ < kConicStep || at_.gain < kConicGain) && !passed_;
+    if (!passage_.empty() || (sharp && startPassage(crossings))) {
       at_ = passage_.front();
       passage_.pop_front();
       return;
     }
-    const double least = std::clamp(kBlur / at_.gain, kShortestStep, kLongestBlur);
+    const double least = std::clamp(PoseCurve::kErrorNoise / at_.gain, kShortestStep, kLongestBlur);
     for (;;) {
       SelfMotionNode next;
       h_ = std::max(h_, least);
@@ -115,6 +116,7 @@ class Walk {
     passage_.assign(passage->nodes.begin(), passage->nodes.end());
     way_ = std::copysign(1.0, pose_.dot(behind.tangent, passage_.back().tangent));
     bend_.setZero();
+    passed_ = true;
     if (passage->crossing) crossings.push_back(*passage->crossing);
     return true;
   }
@@ -126,6 +128,7 @@ class Walk {
     bend_ = (next.tangent - at_.tangent) / (next.arc - at_.arc);
     slope_ = std::abs(next.gain - at_.gain) / (next.arc - at_.arc);
     at_ = next;
+    passed_ = false;
     const double growth = turn > 0.0 ? std::clamp(0.7 * kMostTurn / turn, 0.5, 2.0) : 2.0;
     h_ = std::min(growth * h_, longest_);
   }
@@ -186,7 +189,8 @@ class Walk {
   Vector7 bend_ = Vector7::Zero();
   double slope_ = 1.0;  ///< Of the gain along the last step; 1 is a usual arm's steepest.
   double h_ = kFirstStep;
-  double way_;  ///< Of the walk against the oriented tangents: 1 or -1.
+  double way_;           ///< Of the walk against the oriented tangents: 1 or -1.
+  bool passed_ = false;  ///< By a passage, since the last step: where conics repeat themselves, steps go on.
   bool ended_ = false;
 };
 
@@ -266,7 +270,7 @@ bool traceCurve(PoseCurve& pose, const Vector7& start, SelfMotionCurve& curve) {
   bool bounded = true;
   for (int i = 0; i < kRedundantJoints; ++i) bounded = bounded && pose.isRevolute(i);
   // A curve of turns alone comes round; where it does not, a step was too long.
-  for (double longest : {kLongestStep, kFineStep}) {
+  for (double longest : {kLongestStep, kFinerStep, kFineStep}) {
     curve = SelfMotionCurve();
     curve.closed = Walk(pose, node, 1.0, longest).run(curve.nodes, curve.crossings);
     if (curve.closed) return true;

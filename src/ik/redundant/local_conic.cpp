@@ -10,11 +10,10 @@ using Eigen::Vector2d;
 
 constexpr int kLoopNodes = 32;
 constexpr double kMostGain = 1e-3;   // Of a node on a small loop.
-constexpr double kLeastForm = 2e-9;  // Second derivatives over the chain's length: twenty times their rounding.
+constexpr double kFormNoise = 2e-9;  // Second derivatives over the chain's length: twenty times their rounding.
 constexpr double kMostSize = 0.01;   // [rad] Half a loop's longer axis, and how far from its centre a hyperbola holds.
 constexpr double kStrong = 1e-5;     // Of the largest gain: of the directions that carry the conic to its place.
 constexpr double kMostError = 0.1;   // Of the error in a loop's centre; terms of third order are worth it.
-constexpr double kRounding = 1e-14;  // Of errors.
 constexpr double kSteady = 1e-7;     // Gain from which Newton's method may decide across the curve.
 constexpr double kStep = 0.4;        // Of a hyperbola's parameter: at its vertex the curve turns by as much.
 constexpr double kMostPassage = 30.0;
@@ -31,7 +30,7 @@ struct Conic {
         square(form.values.dot(center.cwiseAbs2())) {}
 
   /// Of a place that terms of third order leave where the conic has it.
-  double mostError() const { return std::max(kMostError * 0.5 * std::abs(square), kRounding); }
+  double mostError() const { return std::max(kMostError * 0.5 * std::abs(square), PoseCurve::kErrorNoise); }
 
   Vector2d values;
   Eigen::Matrix<double, kRedundantJoints, 2> vectors;
@@ -41,7 +40,7 @@ struct Conic {
 
 std::optional<Conic> conicAt(PoseCurve& pose, const Vector7& q, bool ellipse) {
   const PoseCurve::SecondOrder form = pose.secondOrder(q);
-  if (!form.is_known || std::abs(form.values[0]) < kLeastForm) return std::nullopt;
+  if (!form.is_known || std::abs(form.values[0]) < kFormNoise) return std::nullopt;
   if ((form.values[0] * form.values[1] > 0.0) != ellipse) return std::nullopt;
   return Conic(form);
 }
@@ -134,7 +133,7 @@ std::optional<Passage> passCrossing(PoseCurve& pose, const SelfMotionNode& at) {
   const int aside = 1 - along;
   if (place[along] * hyperbola.way()[along] >= 0.0) return std::nullopt;
   Passage passage;
-  if (0.5 * std::abs(conic->square) <= kRounding) {
+  if (0.5 * std::abs(conic->square) <= PoseCurve::kErrorNoise) {
     passage.crossing = at.q + conic->vectors * conic->center;
     Vector2d behind = Vector2d::Zero();
     behind[along] = -place[along];

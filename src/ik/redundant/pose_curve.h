@@ -61,6 +61,8 @@ class PoseCurve {
   Vector7 difference(const Vector7& a, const Vector7& b) const;
   /// Form values [second derivatives over the chain's length] below it are none.
   static constexpr double kLeastForm = 1e-4;
+  /// What rounding leaves open of the error; over the gain, of a place.
+  static constexpr double kErrorNoise = 1e-14;
 
   bool isRevolute(int joint) const { return chain_.joint(joint).isRevolute(); }
 
