@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "screwline/ik/closed_form/roots.h"
+#include "screwline/spatial/rotation.h"
 #include "screwline/spatial/turn_batch.h"
 
 namespace screwline {
@@ -143,29 +144,30 @@ void ParallelPlan::solvePair(const Question& question, const Root& root, Answer&
     if (pair.first_free) solutions.open |= bitOf(pair_axis_);
     if (pair.second_free) solutions.open |= bitOf(pair_axis_ + 1);
     const bool free = root.free || pair.first_free || pair.second_free;
-    solutions.loose = solutions.loose || (!free && pair.error > kMostError);
+    solutions.loose = solutions.loose || (!free && root.error + pair.tight_error > kMostError);
     if (free || pair.error <= kTightError) {
       solvePlane(question, root, pair, root.error + pair.error, answer);
-    } else if (!solvePlane(question, root, pair, 0.0, answer) && !solveLoosely(question, root, pair, answer)) {
-      const int known = solutions.count;
-      solvePlane(question, root, pair, root.error + pair.error, answer);
-      for (int k = known; k < solutions.count; ++k) solutions.unlikely |= 1U << k;
+    } else if (!solvePlane(question, root, pair, 0.0, answer)) {
+      solveLoosely(question, root, pair, answer);
     }
   }
 }
 
-/// Near alignment one turn of the pair is hardly known: within its rounding it goes where the plane has a solution.
-bool ParallelPlan::solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair,
+/// Near alignment one turn of the pair is hardly known: within its rounding it goes towards where the plane has a
+/// solution. What is out of reach there is so by more than that, but for the errors of the other turns.
+void ParallelPlan::solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair,
                                 Answer& answer) const {
+  DirectionSolution moved = pair;
+  moved.clamped = true;
+  Turn& loose = pair.first_loose ? moved.first : moved.second;
+  const PlaceCircle circle = circleOf(question, root, pair, pair.first_loose);
+  const double value = loose.angle();
+  const double side = withoutTurns(value - circle.farthest());
+  const double angle = std::abs(side);
+  const double in_reach = std::clamp(angle, circle.angleAt(plane_->most()), circle.angleAt(plane_->least()));
   const double most = std::min(pair.error, kPi);
-  for (const double share : {0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
-    DirectionSolution moved = pair;
-    Turn& loose = pair.first_loose ? moved.first : moved.second;
-    loose = turnBy(share * most) * loose;
-    moved.clamped = true;
-    if (solvePlane(question, root, moved, 0.0, answer)) return true;
-  }
-  return false;
+  loose = turnBy(value + std::copysign(1.0, side) * std::clamp(in_reach - angle, -most, most));
+  solvePlane(question, root, moved, root.error + pair.tight_error, answer);
 }
 
 /// Where the other joints leave the third parallel axis from the first, and the heading behind it.
@@ -240,7 +242,6 @@ void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSo
   solutions.count = 0;
   solutions.open = 0;
   solutions.clamped = 0;
-  solutions.unlikely = 0;
   solutions.loose = false;
   const Question question = questionOf(target, preferred);
   const Roots roots = singleRoots(question);
@@ -250,21 +251,27 @@ void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSo
 }
 
 /// The place runs on a circle, a + b e^(+-i angle), known from three of its points.
-ParallelSheet ParallelPlan::sheetOf(const Question& question, const Root& root, const DirectionSolution& pair) const {
+/// @param first it is the first turn of the pair that is free; else the second. The value is the turn's angle.
+PlaceCircle ParallelPlan::circleOf(const Question& question, const Root& root, const DirectionSolution& pair,
+                                   bool first) const {
   std::array<Turn, 3> places;
   std::array<Turn, 3> headings;
   for (std::size_t k = 0; k < 3; ++k) {
     const Turn turn = turnBy(0.5 * kPi * static_cast<double>(k));
-    placeOf(question, root.turn, pair.first_free ? turn : pair.first, pair.second_free ? turn : pair.second, places[k],
-            headings[k]);
+    placeOf(question, root.turn, first ? turn : pair.first, first ? pair.second : turn, places[k], headings[k]);
   }
-  const int axis = pair.first_free ? pair_axis_ : pair_axis_ + 1;
-  ParallelSheet::Circle circle;
+  PlaceCircle circle;
   circle.heading = headings[0];
   circle.middle = {0.5 * (places[0].c + places[2].c), 0.5 * (places[0].s + places[2].s)};
   circle.radius = {places[0].c - circle.middle.c, places[0].s - circle.middle.s};
-  const Turn quarter = headings[1] * headings[0].inverse();
-  circle.sense = std::copysign(1.0, quarter.s * sense_[static_cast<std::size_t>(axis)]);
+  circle.sense = std::copysign(1.0, (headings[1] * headings[0].inverse()).s);
+  return circle;
+}
+
+ParallelSheet ParallelPlan::sheetOf(const Question& question, const Root& root, const DirectionSolution& pair) const {
+  const int axis = pair.first_free ? pair_axis_ : pair_axis_ + 1;
+  PlaceCircle circle = circleOf(question, root, pair, pair.first_free);
+  circle.sense *= sense_[static_cast<std::size_t>(axis)];
   PlanSolution fixed;
   fixed.free = bitOf(axis);
   fixed.sign = {root.sign, 0, pair.sign};
