@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "screwline/ik/closed_form/roots.h"
-#include "screwline/spatial/rotation.h"
 #include "screwline/spatial/turn_batch.h"
 
 namespace screwline {
@@ -153,21 +152,54 @@ void ParallelPlan::solvePair(const Question& question, const Root& root, Answer&
   }
 }
 
-/// Near alignment one turn of the pair is hardly known: within its rounding it goes towards where the plane has a
-/// solution. What is out of reach there is so by more than that, but for the errors of the other turns.
+namespace {
+
+DirectionSolution movedBy(double way, const DirectionSolution& pair) {
+  DirectionSolution moved = pair;
+  Turn& loose = pair.first_loose ? moved.first : moved.second;
+  loose = turnBy(way) * loose;
+  moved.clamped = true;
+  return moved;
+}
+
+}  // namespace
+
+/// Near alignment one turn of the pair is hardly known: within its rounding it goes where the plane has a solution, as
+/// far behind the end of the reach as that is away, where the elbow's two signs are apart. What it does not bring into
+/// reach is out of reach, but for the errors of the other turns.
 void ParallelPlan::solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair,
                                 Answer& answer) const {
-  DirectionSolution moved = pair;
-  moved.clamped = true;
-  Turn& loose = pair.first_loose ? moved.first : moved.second;
-  const PlaceCircle circle = circleOf(question, root, pair, pair.first_loose);
-  const double value = loose.angle();
-  const double side = withoutTurns(value - circle.farthest());
-  const double angle = std::abs(side);
-  const double in_reach = std::clamp(angle, circle.angleAt(plane_->most()), circle.angleAt(plane_->least()));
   const double most = std::min(pair.error, kPi);
-  loose = turnBy(value + std::copysign(1.0, side) * std::clamp(in_reach - angle, -most, most));
-  solvePlane(question, root, moved, root.error + pair.tight_error, answer);
+  const double way = wayIntoReach(question, root, pair);
+  if (solvePlane(question, root, movedBy(std::clamp(2.0 * way, -most, most), pair), 0.0, answer)) return;
+  const double carried = root.error + pair.tight_error;
+  solvePlane(question, root, movedBy(std::clamp(way, -most, most), pair), carried, answer);
+}
+
+/// By the squared distance of the third parallel axis from the first as a function of the loose turn: a + b cos + c sin,
+/// with the same first two derivatives (exact where the turn's axis is parallel as well). To where it comes nearest to
+/// the reach if it does not come into it.
+double ParallelPlan::wayIntoReach(const Question& question, const Root& root, const DirectionSolution& pair) const {
+  const auto placeAt = [&](double way) {
+    const DirectionSolution moved = movedBy(way, pair);
+    Turn place;
+    Turn heading;
+    placeOf(question, root.turn, moved.first, moved.second, place, heading);
+    return Eigen::Vector2d(place.c, place.s);
+  };
+  const Eigen::Vector2d here = placeAt(0.0);
+  const Eigen::Vector2d ahead = placeAt(0.5 * kPi);
+  const Eigen::Vector2d behind = placeAt(-0.5 * kPi);
+  const Eigen::Vector2d slope = 0.5 * (ahead - behind);
+  const double first = here.dot(slope);
+  const double second = slope.squaredNorm() - here.dot(here - 0.5 * (ahead + behind));
+  // first sin + second (1 - cos) = half
+  const double distance = here.norm();
+  const double goal = std::clamp(distance, plane_->least(), plane_->most());
+  const double half = 0.5 * (goal - distance) * (goal + distance);
+  const double radicand = first * first + (2.0 * second - half) * half;
+  if (radicand < 0.0) return half > 0.0 ? std::atan2(first, -second) : std::atan2(-first, second);
+  return 2.0 * std::atan(half / (first + std::copysign(std::sqrt(radicand), first)));
 }
 
 /// Where the other joints leave the third parallel axis from the first, and the heading behind it.
@@ -251,27 +283,21 @@ void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSo
 }
 
 /// The place runs on a circle, a + b e^(+-i angle), known from three of its points.
-/// @param first it is the first turn of the pair that is free; else the second. The value is the turn's angle.
-PlaceCircle ParallelPlan::circleOf(const Question& question, const Root& root, const DirectionSolution& pair,
-                                   bool first) const {
+ParallelSheet ParallelPlan::sheetOf(const Question& question, const Root& root, const DirectionSolution& pair) const {
   std::array<Turn, 3> places;
   std::array<Turn, 3> headings;
   for (std::size_t k = 0; k < 3; ++k) {
     const Turn turn = turnBy(0.5 * kPi * static_cast<double>(k));
-    placeOf(question, root.turn, first ? turn : pair.first, first ? pair.second : turn, places[k], headings[k]);
+    placeOf(question, root.turn, pair.first_free ? turn : pair.first, pair.second_free ? turn : pair.second, places[k],
+            headings[k]);
   }
-  PlaceCircle circle;
+  const int axis = pair.first_free ? pair_axis_ : pair_axis_ + 1;
+  ParallelSheet::Circle circle;
   circle.heading = headings[0];
   circle.middle = {0.5 * (places[0].c + places[2].c), 0.5 * (places[0].s + places[2].s)};
   circle.radius = {places[0].c - circle.middle.c, places[0].s - circle.middle.s};
-  circle.sense = std::copysign(1.0, (headings[1] * headings[0].inverse()).s);
-  return circle;
-}
-
-ParallelSheet ParallelPlan::sheetOf(const Question& question, const Root& root, const DirectionSolution& pair) const {
-  const int axis = pair.first_free ? pair_axis_ : pair_axis_ + 1;
-  PlaceCircle circle = circleOf(question, root, pair, pair.first_free);
-  circle.sense *= sense_[static_cast<std::size_t>(axis)];
+  const Turn quarter = headings[1] * headings[0].inverse();
+  circle.sense = std::copysign(1.0, quarter.s * sense_[static_cast<std::size_t>(axis)]);
   PlanSolution fixed;
   fixed.free = bitOf(axis);
   fixed.sign = {root.sign, 0, pair.sign};

@@ -10,6 +10,10 @@
 namespace screwline {
 namespace {
 
+double lengthOf(const Turn& place) {
+  return std::hypot(place.c, place.s);
+}
+
 std::size_t lowestBit(unsigned bits) {
   std::size_t place = 0;
   while ((bits >> place & 1U) == 0U) ++place;
@@ -18,38 +22,22 @@ std::size_t lowestBit(unsigned bits) {
 
 }  // namespace
 
-double PlaceCircle::far() const {
-  return std::hypot(middle.c, middle.s) + std::hypot(radius.c, radius.s);
-}
-
-double PlaceCircle::near() const {
-  return std::abs(std::hypot(middle.c, middle.s) - std::hypot(radius.c, radius.s));
-}
-
-double PlaceCircle::farthest() const {
-  return sense * (middle * radius.inverse()).angle();
-}
-
-/// distance^2 = far^2 - 4 m r sin^2(angle / 2) = near^2 + 4 m r cos^2(angle / 2) with the lengths m, r of middle and
-/// radius; so tan(angle / 2) is known.
-double PlaceCircle::angleAt(double distance) const {
-  const auto root = [](double a, double b) { return std::sqrt(std::max(0.0, (a - b) * (a + b))); };
-  return 2.0 * std::atan2(root(far(), distance), root(distance, near()));
-}
-
-ParallelSheet::ParallelSheet(const PlanarProblem& plane, double length, const PlaneJoints& joints,
-                             const PlaceCircle& circle, const PlanSolution& fixed)
+ParallelSheet::ParallelSheet(const PlanarProblem& plane, double length, const PlaneJoints& joints, const Circle& circle,
+                             const PlanSolution& fixed)
     : plane_(&plane), length_(length), joints_(joints), circle_(circle), fixed_(fixed), free_(lowestBit(fixed.free)) {}
 
-/// By the angle from where the place is farthest.
+/// By the angle from where the place is farthest: distance^2 = far^2 - 4 m r sin^2(angle / 2)
+/// = near^2 + 4 m r cos^2(angle / 2) with the lengths m, r of middle and radius; so tan(angle / 2) is known.
 std::vector<SheetStretch> ParallelSheet::stretches() const {
-  const double far = circle_.far();
-  const double near = circle_.near();
+  const double m = lengthOf(circle_.middle);
+  const double r = lengthOf(circle_.radius);
+  const double far = m + r;
+  const double near = std::abs(m - r);
   const double most = plane_->most();
   const double least = plane_->least();
   const double exact = PlanarProblem::kNoSlack * length_;
   if (far < least - exact || near > most + exact) return {};
-  const double farthest = circle_.farthest();
+  const double farthest = circle_.sense * (circle_.middle * circle_.radius.inverse()).angle();
   const bool all_straight = (near >= most - exact && far <= most + exact) || far <= least + exact;
   if (all_straight && near >= least - exact) return {{farthest, farthest + kTwoPi, false, false, true, true}};
   if (near >= most - exact) return {{farthest + kPi, farthest + kPi, false, false, true}};
@@ -58,8 +46,12 @@ std::vector<SheetStretch> ParallelSheet::stretches() const {
   const bool is_folded = near <= least + exact;
   const bool touches_most = far <= most + exact;
   const bool touches_least = near >= least - exact;
-  const double first = touches_most ? 0.0 : circle_.angleAt(most);
-  const double last = touches_least ? kPi : circle_.angleAt(least);
+  const auto angleAt = [&](double distance) {
+    const auto root = [](double a, double b) { return std::sqrt(std::max(0.0, (a - b) * (a + b))); };
+    return 2.0 * std::atan2(root(far, distance), root(distance, near));
+  };
+  const double first = touches_most ? 0.0 : angleAt(most);
+  const double last = touches_least ? kPi : angleAt(least);
   if (!is_stretched && !is_folded) return {{farthest, farthest + kTwoPi, false, false, false, true}};
   if (!is_folded) return {{farthest + first, farthest + kTwoPi - first, touches_most, touches_most}};
   if (!is_stretched) return {{farthest - last, farthest + last, touches_least, touches_least}};

@@ -74,7 +74,7 @@ class ParallelPlan {
                   Answer& answer) const;
   void takeAngles(const Question& question, Answer& answer) const;
   void solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair, Answer& answer) const;
-  PlaceCircle circleOf(const Question& question, const Root& root, const DirectionSolution& pair, bool first) const;
+  double wayIntoReach(const Question& question, const Root& root, const DirectionSolution& pair) const;
   ParallelSheet sheetOf(const Question& question, const Root& root, const DirectionSolution& pair) const;
   void directions(const Question& question, const Turn& single, Vector3& start, Vector3& goal) const;
   double preferredAngle(const Question& question, int axis) const;

@@ -22,27 +22,19 @@ struct SheetStretch {
   bool isPoint() const { return from == to; }
 };
 
-/// The third parallel axis's place and heading, as complex numbers, where a joint's value v turns them about a parallel
-/// line: middle + radius e^(i sense v), heading e^(i sense v).
-struct PlaceCircle {
-  Turn middle;   ///< [m]
-  Turn radius;   ///< [m]
-  Turn heading;  ///< Of length 1.
-  double sense = 1.0;
-
-  double far() const;   ///< [m] The largest distance of the place from the first axis.
-  double near() const;  ///< [m] The least one.
-  /// The value where the place is farthest.
-  double farthest() const;
-  /// [rad] from there, either way, to where it is at `distance`, or comes nearest to that.
-  double angleAt(double distance) const;
-};
-
 /// Solutions of three parallel axes where the pair leaves one of its joints free: with that joint's value the place of
 /// the third parallel axis runs round a circle about a parallel line, and its heading turns alike (a planar four-bar
 /// linkage). Everything that follows is in closed form.
 class ParallelSheet {
  public:
+  /// Place and heading, as complex numbers, at the free joint's value v: middle + radius e^(i sense v), heading
+  /// e^(i sense v).
+  struct Circle {
+    Turn middle;   ///< [m]
+    Turn radius;   ///< [m]
+    Turn heading;  ///< Of length 1.
+    double sense = 1.0;
+  };
   /// The joints that move the plane, in the problem's order, and the sense in which they turn.
   struct PlaneJoints {
     std::array<std::size_t, 3> joint{};
@@ -51,7 +43,7 @@ class ParallelSheet {
 
   /// @param plane must outlive it. @param length [m] of the chain. @param fixed the joints outside the plane, with
   /// their signs; exactly one is free.
-  ParallelSheet(const PlanarProblem& plane, double length, const PlaneJoints& joints, const PlaceCircle& circle,
+  ParallelSheet(const PlanarProblem& plane, double length, const PlaneJoints& joints, const Circle& circle,
                 const PlanSolution& fixed);
 
   int joint() const { return static_cast<int>(free_); }  ///< The free one.
@@ -67,7 +59,7 @@ class ParallelSheet {
   const PlanarProblem* plane_;
   double length_;
   PlaneJoints joints_;
-  PlaceCircle circle_;
+  Circle circle_;
   PlanSolution fixed_;
   std::size_t free_;
 };
