@@ -132,6 +132,7 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
   if (parallel) {
     ParallelCandidates found = candidatesOf(*parallel, chain, request.target, builder.seed(), doubted);
     result.complete = found.complete;
+    result.indistinct = found.indistinct;
     return found.found;
   }
   std::vector<Candidate> found;
@@ -191,9 +192,10 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vect
     if (chain.size() > task.size() && answer.self_motion.rows() == 0) describeRedundancy(chain, task, answer);
   }
   if (isExact() && chain.size() == task.size()) {
-    result.indistinct = parallel
-                            ? !allAreTold(chain, task, request.target, builder, answers)
-                            : !completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers);
+    const bool told = parallel
+                          ? allAreTold(chain, task, request.target, builder, answers)
+                          : completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers);
+    result.indistinct = result.indistinct || !told;
     all = all && !result.indistinct;
   }
   for (IkAnswer& answer : answers) admit(request, std::move(answer), builder, result);

@@ -163,6 +163,7 @@ ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain&
   if (solutions.open != 0 && !addContinua(method, chain, target, seed, solutions, gathering)) eliminate = true;
   ParallelCandidates result;
   result.complete = !refuted && !eliminate;
+  result.indistinct = solutions.indistinct;
   const bool in_doubt = refuted || (solutions.clamped != 0 && solutions.loose && !gathering.coverAll());
   if ((in_doubt || eliminate) && method.algebraic) {
     AlgebraicSolutions roots;

@@ -13,6 +13,7 @@ constexpr double kRounding = 4e-15;    // Of a length over the chain's.
 constexpr double kNegligible = 1e-13;  // The same: terms below it are rounding.
 constexpr double kTightError = 1e-9;   // [rad] of the pair: below it what is out of reach is so but for a little.
 constexpr double kMostError = 1e-2;    // [rad] that is carried on: what is worse is left to other methods.
+constexpr double kHardlyKnown = 0.5;   // [rad] of a turn of the pair; what it is in fact is a tenth of it or so.
 
 }  // namespace
 
@@ -144,6 +145,7 @@ void ParallelPlan::solvePair(const Question& question, const Root& root, Answer&
     if (pair.second_free) solutions.open |= bitOf(pair_axis_ + 1);
     const bool free = root.free || pair.first_free || pair.second_free;
     solutions.loose = solutions.loose || (!free && root.error + pair.tight_error > kMostError);
+    solutions.indistinct = solutions.indistinct || (!free && pair.error > kHardlyKnown);
     if (free || pair.error <= kTightError) {
       solvePlane(question, root, pair, root.error + pair.error, answer);
     } else if (!solvePlane(question, root, pair, 0.0, answer)) {
@@ -169,7 +171,7 @@ DirectionSolution movedBy(double way, const DirectionSolution& pair) {
 /// reach is out of reach, but for the errors of the other turns.
 void ParallelPlan::solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair,
                                 Answer& answer) const {
-  const double most = std::min(pair.error, kPi);
+  const double most = std::min(pair.error, 0.5 * kPi);  // What is farther is nearer to the other way to turn the pair.
   const double way = wayIntoReach(question, root, pair);
   if (solvePlane(question, root, movedBy(std::clamp(2.0 * way, -most, most), pair), 0.0, answer)) return;
   const double carried = root.error + pair.tight_error;
@@ -275,6 +277,7 @@ void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSo
   solutions.open = 0;
   solutions.clamped = 0;
   solutions.loose = false;
+  solutions.indistinct = false;
   const Question question = questionOf(target, preferred);
   const Roots roots = singleRoots(question);
   Answer answer(solutions);

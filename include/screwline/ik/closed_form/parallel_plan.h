@@ -20,6 +20,8 @@ struct ParallelSolutions : PlanSolutions {
   unsigned clamped = 0;  ///< Bit k: solution k exists only if rounding is moved in its favour; it may prove to be none.
   bool loose = false;    ///< A turn is known so badly that its error was not carried on in full: where others are
                          ///< clamped, one may be missing.
+  bool indistinct = false;  ///< A turn of the pair is hardly known: solutions may be places on a curve that the pose does
+                            ///< not tell from each other.
 };
 
 /// Inverse kinematics for whole poses of six revolute joints, three neighbouring ones with parallel axes and two
