@@ -361,7 +361,8 @@ bool InverseKinematics::Implementation::gather(const IkRequest& request, const S
   std::vector<Candidate> found = joinEqual(chain, candidates(request, builder, false, result));
   bool any = !found.empty();
   bool all = keep(request, std::move(found), builder, result);
-  if (!all && !result.indistinct && (parallel || completed)) {
+  const bool none = result.solutions.empty() && result.outside_limits == 0;
+  if (!all && (none || !result.indistinct) && (parallel || completed)) {
     result.solutions.clear();
     result.outside_limits = 0;
     found = joinEqual(chain, candidates(request, builder, true, result));

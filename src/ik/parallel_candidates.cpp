@@ -158,7 +158,7 @@ ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain&
     VectorX q = jointsOf(solution, 6);
     if ((solutions.clamped >> k & 1U) != 0U) {
       if (!settle(chain, target, q)) {
-        refuted = true;
+        refuted = refuted || (solutions.unlikely >> k & 1U) == 0U;
         continue;
       }
     }

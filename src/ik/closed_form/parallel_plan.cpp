@@ -174,8 +174,10 @@ void ParallelPlan::solveLoosely(const Question& question, const Root& root, cons
   const double most = std::min(pair.error, 0.5 * kPi);  // What is farther is nearer to the other way to turn the pair.
   const double way = wayIntoReach(question, root, pair);
   if (solvePlane(question, root, movedBy(std::clamp(2.0 * way, -most, most), pair), 0.0, answer)) return;
+  const int known = answer.solutions.count;
   const double carried = root.error + pair.tight_error;
   solvePlane(question, root, movedBy(std::clamp(way, -most, most), pair), carried, answer);
+  for (int k = known; k < answer.solutions.count; ++k) answer.solutions.unlikely |= 1U << k;
 }
 
 /// By the squared distance of the third parallel axis from the first as a function of the loose turn: a + b cos + c sin,
@@ -276,6 +278,7 @@ void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSo
   solutions.count = 0;
   solutions.open = 0;
   solutions.clamped = 0;
+  solutions.unlikely = 0;
   solutions.loose = false;
   solutions.indistinct = false;
   const Question question = questionOf(target, preferred);
