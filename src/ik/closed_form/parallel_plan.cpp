@@ -15,6 +15,15 @@ constexpr double kTightError = 1e-9;   // [rad] of the pair: below it what is ou
 constexpr double kMostError = 1e-2;    // [rad] that is carried on: what is worse is left to other methods.
 constexpr double kHardlyKnown = 0.5;   // [rad] of a turn of the pair; what it is in fact is a tenth of it or so.
 
+/// Its loose turn is.
+DirectionSolution movedBy(double way, const DirectionSolution& pair) {
+  DirectionSolution moved = pair;
+  Turn& loose = pair.first_loose ? moved.first : moved.second;
+  loose = turnBy(way) * loose;
+  moved.clamped = true;
+  return moved;
+}
+
 }  // namespace
 
 /// A pose on its way through the stages.
@@ -154,18 +163,6 @@ void ParallelPlan::solvePair(const Question& question, const Root& root, Answer&
   }
 }
 
-namespace {
-
-DirectionSolution movedBy(double way, const DirectionSolution& pair) {
-  DirectionSolution moved = pair;
-  Turn& loose = pair.first_loose ? moved.first : moved.second;
-  loose = turnBy(way) * loose;
-  moved.clamped = true;
-  return moved;
-}
-
-}  // namespace
-
 /// Near alignment one turn of the pair is hardly known: within its rounding it goes where the plane has a solution, as
 /// far behind the end of the reach as that is away, where the elbow's two signs are apart. What it does not bring into
 /// reach is out of reach, but for the errors of the other turns.
@@ -174,15 +171,16 @@ void ParallelPlan::solveLoosely(const Question& question, const Root& root, cons
   const double most = std::min(pair.error, 0.5 * kPi);  // What is farther is nearer to the other way to turn the pair.
   const double way = wayIntoReach(question, root, pair);
   if (solvePlane(question, root, movedBy(std::clamp(2.0 * way, -most, most), pair), 0.0, answer)) return;
-  const int known = answer.solutions.count;
+  ParallelSolutions& solutions = answer.solutions;
+  const int known = solutions.count;
   const double carried = root.error + pair.tight_error;
   solvePlane(question, root, movedBy(std::clamp(way, -most, most), pair), carried, answer);
-  for (int k = known; k < answer.solutions.count; ++k) answer.solutions.unlikely |= 1U << k;
+  for (int k = known; k < solutions.count; ++k) solutions.unlikely |= std::abs(way) > most ? 1U << k : 0U;
 }
 
-/// By the squared distance of the third parallel axis from the first as a function of the loose turn: a + b cos + c sin,
-/// with the same first two derivatives (exact where the turn's axis is parallel as well). To where it comes nearest to
-/// the reach if it does not come into it.
+/// By the squared distance of the third parallel axis from the first as a function of the loose turn: a + b cos + c
+/// sin, with the same first two derivatives (exact where the turn's axis is parallel as well). To where it comes
+/// nearest to the reach if it does not come into it.
 double ParallelPlan::wayIntoReach(const Question& question, const Root& root, const DirectionSolution& pair) const {
   const auto placeAt = [&](double way) {
     const DirectionSolution moved = movedBy(way, pair);
@@ -197,10 +195,11 @@ double ParallelPlan::wayIntoReach(const Question& question, const Root& root, co
   const Eigen::Vector2d slope = 0.5 * (ahead - behind);
   const double first = here.dot(slope);
   const double second = slope.squaredNorm() - here.dot(here - 0.5 * (ahead + behind));
-  // first sin + second (1 - cos) = half
   const double distance = here.norm();
   const double goal = std::clamp(distance, plane_->least(), plane_->most());
   const double half = 0.5 * (goal - distance) * (goal + distance);
+  if (half == 0.0) return 0.0;
+  // first sin + second (1 - cos) = half
   const double radicand = first * first + (2.0 * second - half) * half;
   if (radicand < 0.0) return half > 0.0 ? std::atan2(first, -second) : std::atan2(-first, second);
   return 2.0 * std::atan(half / (first + std::copysign(std::sqrt(radicand), first)));
