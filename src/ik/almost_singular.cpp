@@ -12,15 +12,24 @@ bool isIsolated(const IkAnswer& answer) {
   return answer.self_motion.rows() == 0;
 }
 
+bool allAreTold(const SerialChain& chain, const Task& task, const Pose& target, const SolutionBuilder& builder,
+                const std::vector<IkAnswer>& answers) {
+  return std::all_of(answers.begin(), answers.end(), [&](const IkAnswer& answer) {
+    const WeakDirections* weak = isIsolated(answer) ? builder.weakDirectionsAt(answer.position) : nullptr;
+    return weak == nullptr || isTold(chain, task, target, answer.position, *weak);
+  });
+}
+
 }  // namespace
 
-bool completeAlmostSingular(const SerialChain& chain, const Task& task, const Pose& target, double bound,
+bool completeAlmostSingular(const SerialChain& chain, const Task& task, const Pose& target, std::optional<double> bound,
                             const SolutionBuilder& builder, std::vector<IkAnswer>& answers) {
+  if (!bound) return allAreTold(chain, task, target, builder, answers);
   bool told = true;
   std::vector<IkAnswer> mates;
   std::vector<bool> between(answers.size(), false);
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    if (!isIsolated(answers[i]) || !(answers[i].manipulability <= bound)) continue;
+    if (!isIsolated(answers[i]) || !(answers[i].manipulability <= *bound)) continue;
     const auto isAt = [&](const IkAnswer& answer, const VectorX& place, double distance) {
       return isIsolated(answer) && largestDifference(chain, answer.position, place) <= distance;
     };
@@ -49,14 +58,6 @@ bool completeAlmostSingular(const SerialChain& chain, const Task& task, const Po
   std::move(mates.begin(), mates.end(), std::back_inserter(all));
   answers = std::move(all);
   return told;
-}
-
-bool allAreTold(const SerialChain& chain, const Task& task, const Pose& target, const SolutionBuilder& builder,
-                const std::vector<IkAnswer>& answers) {
-  return std::all_of(answers.begin(), answers.end(), [&](const IkAnswer& answer) {
-    const WeakDirections* weak = isIsolated(answer) ? builder.weakDirectionsAt(answer.position) : nullptr;
-    return weak == nullptr || isTold(chain, task, target, answer.position, *weak);
-  });
 }
 
 }  // namespace screwline

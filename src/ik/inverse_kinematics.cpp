@@ -57,6 +57,7 @@ struct InverseKinematics::Implementation {
     }
     parallel = parallelMethodFor(chain, task);
     if (parallel) {
+      almost_singular.reset();
       method = "closed form: " + parallel->plan.method();
       return;
     }
@@ -112,8 +113,8 @@ struct InverseKinematics::Implementation {
   std::optional<SelfMotionSolver> redundant;
   std::optional<CompletedSelfMotion> open_self_motion;
   std::string method;
-  bool moves_everywhere = false;  ///< Every solution of a searched chain is a member of a continuum.
-  double almost_singular;         ///< Manipulability below which solutions may meet.
+  bool moves_everywhere = false;          ///< Every solution of a searched chain is a member of a continuum.
+  std::optional<double> almost_singular;  ///< Manipulability below which solutions may meet that are not both found.
 };
 
 std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkRequest& request,
@@ -132,6 +133,7 @@ std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkReq
   if (parallel) {
     ParallelCandidates found = candidatesOf(*parallel, chain, request.target, builder.seed(), doubted);
     result.complete = found.complete;
+    result.indistinct = found.indistinct;
     return found.found;
   }
   std::vector<Candidate> found;
@@ -191,9 +193,8 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vect
     if (chain.size() > task.size() && answer.self_motion.rows() == 0) describeRedundancy(chain, task, answer);
   }
   if (isExact() && chain.size() == task.size()) {
-    result.indistinct = parallel
-                            ? !allAreTold(chain, task, request.target, builder, answers)
-                            : !completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers);
+    if (!completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers))
+      result.indistinct = true;
     all = all && !result.indistinct;
   }
   for (IkAnswer& answer : answers) admit(request, std::move(answer), builder, result);
@@ -355,7 +356,7 @@ bool InverseKinematics::Implementation::gather(const IkRequest& request, const S
   std::vector<Candidate> found = joinEqual(chain, candidates(request, builder, false, result));
   bool any = !found.empty();
   bool all = keep(request, std::move(found), builder, result);
-  if (!all && !result.indistinct && (parallel || completed)) {
+  if (!all && (!result.indistinct || result.solutions.empty()) && (parallel || completed)) {
     result.solutions.clear();
     result.outside_limits = 0;
     found = joinEqual(chain, candidates(request, builder, true, result));

@@ -11,7 +11,8 @@ namespace {
 using Signs = std::array<int, 3>;
 
 constexpr int kMostSteps = 30;
-constexpr double kBeside = 1e-2;  // [rad]
+constexpr double kBeside = 1e-2;    // [rad]
+constexpr double kSettled = 1e-12;  // [m, rad] Errors that need no more steps.
 
 /// Gathers candidates, and which branches they stand for: a sign that is 0 stands for both.
 class Gathering {
@@ -120,15 +121,18 @@ bool addContinua(const ParallelMethod& method, const SerialChain& chain, const P
 
 /// Brings a configuration beside a multiple solution onto it: where Newton's steps are too long, by damped ones.
 bool settle(const SerialChain& chain, const Pose& target, VectorX& q) {
-  const auto isSolved = [](const TaskError& error) {
-    return error.position <= kSolutionTolerance && error.orientation <= kSolutionTolerance;
+  const auto isSolved = [](const TaskError& error, double tolerance) {
+    return error.position <= tolerance && error.orientation <= tolerance;
   };
-  if (isSolved(polish(chain, Task(), target, q))) return true;
+  const TaskError polished = polish(chain, Task(), target, q);
+  if (isSolved(polished, kSettled)) return true;
   DescentOptions options;
   options.honour_limits = false;
   options.max_iterations = kMostSteps;
   const DescentResult descent = descend(chain, Task(), target, q, options);
-  if (!isSolved(descent.error) || largestDifference(chain, descent.q, q) > kBeside) return false;
+  if (!isSolved(descent.error, kSolutionTolerance) || largestDifference(chain, descent.q, q) > kBeside) {
+    return isSolved(polished, kSolutionTolerance);
+  }
   q = descent.q;
   return true;
 }
@@ -163,6 +167,7 @@ ParallelCandidates candidatesOf(const ParallelMethod& method, const SerialChain&
   if (solutions.open != 0 && !addContinua(method, chain, target, seed, solutions, gathering)) eliminate = true;
   ParallelCandidates result;
   result.complete = !refuted && !eliminate;
+  result.indistinct = solutions.indistinct;
   const bool in_doubt = refuted || (solutions.clamped != 0 && solutions.loose && !gathering.coverAll());
   if ((in_doubt || eliminate) && method.algebraic) {
     AlgebraicSolutions roots;

@@ -22,6 +22,7 @@ std::optional<ParallelMethod> parallelMethodFor(const SerialChain& chain, const 
 struct ParallelCandidates {
   std::vector<Candidate> found;
   bool complete = false;
+  bool indistinct = false;  ///< The pose may not tell some of them from others along a curve.
 };
 
 /// All solutions, each of its own branch, continua as loops. `method` and `chain` must outlive the candidates.

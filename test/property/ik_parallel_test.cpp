@@ -5,7 +5,9 @@
 
 #include <Eigen/LU>
 
+#include "../../src/ik/parallel_candidates.h"
 #include "algebraic_arms.h"
+#include "ik_gate.h"
 #include "parallel_arms.h"
 #include "screwline/ik/algebraic/algebraic_solver.h"
 #include "screwline/ik/closed_form/parallel_plan.h"
@@ -15,6 +17,9 @@
 #include "screwline/kinematics/jacobian.h"
 #include "screwline/spatial/screw.h"
 #include "screwline/spatial/svd.h"
+#include "shipped_robots.h"
+#include "singular_poses.h"
+#include "singular_search.h"
 
 namespace screwline {
 namespace {
@@ -233,6 +238,30 @@ TEST_P(IkParallel, BranchNamesStayAlongPathsThatMeetNoSingularity) {
   EXPECT_GT(steps, 1000);
 }
 
+/// At and beside singular poses the closed form alone decides what there is: elimination has nothing to add.
+TEST_P(IkParallel, LeavesNoDoubtToEliminationAtAndBesideSingularPoses) {
+  const SerialChain chain = arms_.make(GetParam());
+  const InverseKinematics ik(chain, Task());
+  std::optional<ParallelMethod> method = parallelMethodFor(chain, Task());
+  ASSERT_TRUE(method.has_value());
+  method->algebraic.reset();
+  test::SingularPoses poses(chain, kSeed);
+  int asked = 0;
+  for (const test::SingularKind& kind : test::singularKindsOf(chain, Task())) {
+    for (double offset : kOffsets) {
+      const std::optional<VectorX> q = poses.make(kind, offset);
+      if (!q) continue;
+      SCOPED_TRACE(kind.name + ", offset " + std::to_string(std::log10(offset)) + ", seed " + std::to_string(kSeed));
+      const test::GateVerdict verdict = test::IkGate(ik, *q, true).judge(VectorX::LinSpaced(6, 8e-4, -5e-4));
+      EXPECT_TRUE(verdict.isLawful()) << verdict.message << " q = " << q->transpose();
+      const Pose target = forwardKinematics(chain, *q);
+      EXPECT_TRUE(candidatesOf(*method, chain, target, VectorX::Zero(6), false).complete) << "q = " << q->transpose();
+      ++asked;
+    }
+  }
+  EXPECT_GT(asked, 30);
+}
+
 INSTANTIATE_TEST_SUITE_P(Structures, IkParallel, testing::Range(0, test::ParallelArmMaker::kStructures));
 
 TEST(IkParallelArm, TellsALoopOnceWithItsFolds) {
@@ -260,6 +289,50 @@ TEST(IkParallelArm, TellsALoopOnceWithItsFolds) {
     EXPECT_LE(loops, 2);
     EXPECT_LE((result.solutions.front().position - q).norm(), 1e-9);
   }
+}
+
+/// Where a height is almost not reached and the arm almost straight, errors between solutions are small: 1e-9 is met in
+/// places that are none.
+TEST(IkParallelArm, NoRowStandsBetweenSolutions) {
+  for (const char* name : {"ur5", "ur10e"}) {
+    const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, name);
+    const InverseKinematics ik(robot.chain, robot.task);
+    test::SingularPoses poses(robot.chain, kSeed);
+    for (const test::SingularKind& kind : test::singularKindsOf(robot.chain, robot.task)) {
+      if (kind.ways.size() < 2) continue;
+      for (double offset : kOffsets) {
+        const std::optional<VectorX> q = poses.make(kind, offset);
+        if (!q) continue;
+        for (const IkAnswer& answer : ik.solve(test::IkGate(ik, *q, true).request()).solutions) {
+          EXPECT_LE(std::max(answer.position_error, answer.orientation_error), 1e-12)
+              << name << ", " << kind.name << " + " << offset << ", q = " << q->transpose();
+        }
+      }
+    }
+  }
+}
+
+/// Where the first axis's turn is a double root, known to 3e-8, and the wrist aligned to less than that, no turn of the
+/// wrist's is known at all: the pose does not tell solutions from a continuum.
+TEST(IkParallelArm, ListsOfTurnsThatAreHardlyKnownAreNotCalledComplete) {
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "ur5");
+  const InverseKinematics ik(robot.chain, robot.task);
+  test::SingularPoses poses(robot.chain, kSeed);
+  int asked = 0;
+  for (const test::SingularKind& kind : test::singularKindsOf(robot.chain, robot.task)) {
+    if (kind.name != "shoulder + wrist") continue;
+    for (double offset : {1e-12, 1e-11, 1e-10, 1e-9}) {
+      for (int trial = 0; trial < 5; ++trial) {
+        const std::optional<VectorX> q = poses.make(kind, offset);
+        if (!q) continue;
+        ++asked;
+        const IkResult result = ik.solve(test::IkGate(ik, *q, true).request());
+        EXPECT_FALSE(result.complete) << offset << ", q = " << q->transpose();
+        EXPECT_NE(result.message.find("rounding hides"), std::string::npos) << result.message;
+      }
+    }
+  }
+  EXPECT_EQ(asked, 20);
 }
 
 TEST(IkParallelArm, LawsCanFail) {

@@ -18,9 +18,25 @@ constexpr double kLargestDisk = 0.1;  ///< [rad] radius
 constexpr double kUnresolved = 0.01;  ///< [rad] radius of what has no such disk.
 constexpr double kDiskGrowth = 1.5;   ///< From one radius to the next.
 
+/// Calls visit(k, cos k x, sin k x) for k = 1, ... degree.
+template <typename Visit>
+void forEachHarmonic(double x, int degree, const Visit& visit) {
+  const double cosine = std::cos(x);
+  const double sine = std::sin(x);
+  double ck = 1.0;
+  double sk = 0.0;
+  for (int k = 1; k <= degree; ++k) {
+    const double next = ck * cosine - sk * sine;
+    sk = sk * cosine + ck * sine;
+    ck = next;
+    visit(k, ck, sk);
+  }
+}
+
 /// cos and sin of 2 pi i / 32.
 struct Circle {
   Circle() {
+    // Each by itself, to the last digit: what the recurrence loses would count as the polynomials' noise.
     for (int i = 0; i < kTrigonometricSamples; ++i) {
       cosine[static_cast<std::size_t>(i)] = std::cos(kTwoPi * i / kTrigonometricSamples);
       sine[static_cast<std::size_t>(i)] = std::sin(kTwoPi * i / kTrigonometricSamples);
@@ -185,23 +201,16 @@ void TrigonometricPolynomial::truncate(int new_degree) {
 }
 
 std::array<double, 4> TrigonometricPolynomial::derivatives(double x) const {
-  const double cosine = std::cos(x);
-  const double sine = std::sin(x);
-  double ck = 1.0;
-  double sk = 0.0;
   std::array<double, 4> d{{c[0], 0.0, 0.0, 0.0}};
-  for (int k = 1; k <= degree; ++k) {
+  forEachHarmonic(x, degree, [&](int k, double ck, double sk) {
     const auto i = static_cast<std::size_t>(k);
-    const double next = ck * cosine - sk * sine;
-    sk = sk * cosine + ck * sine;
-    ck = next;
     const double even = c[i] * ck + s[i] * sk;
     const double odd = k * (s[i] * ck - c[i] * sk);
     d[0] += even;
     d[1] += odd;
     d[2] -= k * k * even;
     d[3] -= k * k * odd;
-  }
+  });
   return d;
 }
 
@@ -222,16 +231,9 @@ double TrigonometricPolynomial::tolerance() const {
 /// f^(j)(x) / j!, and as the last a bound on the remainder's factor in disks up to the largest.
 TrigonometricPolynomial::Taylor TrigonometricPolynomial::taylor(double x) const {
   static const double kGrowth = std::exp(kTrigonometricDegree * kLargestDisk);  // Of the remainder off the real axis.
-  const double cosine = std::cos(x);
-  const double sine = std::sin(x);
-  double ck = 1.0;
-  double sk = 0.0;
   Taylor terms{{c[0], 0.0}};
-  for (int k = 1; k <= degree; ++k) {
+  forEachHarmonic(x, degree, [&](int k, double ck, double sk) {
     const auto i = static_cast<std::size_t>(k);
-    const double next = ck * cosine - sk * sine;
-    sk = sk * cosine + ck * sine;
-    ck = next;
     const double even = c[i] * ck + s[i] * sk;
     const double odd = s[i] * ck - c[i] * sk;
     double power = 1.0;  // k^j, with the derivative's sign.
@@ -242,7 +244,7 @@ TrigonometricPolynomial::Taylor TrigonometricPolynomial::taylor(double x) const 
     }
     terms[terms.size() - 2] += power * even;
     terms.back() += std::abs(power) * k * (std::abs(c[i]) + std::abs(s[i]));
-  }
+  });
   double factorial = 1.0;
   for (std::size_t j = 2; j < terms.size(); ++j) {
     factorial *= static_cast<double>(j);

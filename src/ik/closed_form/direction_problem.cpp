@@ -59,6 +59,7 @@ void DirectionProblem::solve(const Vector3& start, const Vector3& goal, double e
     solution.first_free = free && by_first;
     solution.second_free = free && !by_first;
     solution.error = (kRounding + error) / least_height;
+    solution.tight_error = std::max(solution.error * whole, kRounding + error) / std::max(goal_sine, start_sine);
     const Vector3 high = (sign * height) * across_;
     // Across each axis: where the direction stands between the turns, and where it comes from or goes to.
     const Vector3 at_first = high + side_first * first_side_;

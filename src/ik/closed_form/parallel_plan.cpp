@@ -13,6 +13,16 @@ constexpr double kRounding = 4e-15;    // Of a length over the chain's.
 constexpr double kNegligible = 1e-13;  // The same: terms below it are rounding.
 constexpr double kTightError = 1e-9;   // [rad] of the pair: below it what is out of reach is so but for a little.
 constexpr double kMostError = 1e-2;    // [rad] that is carried on: what is worse is left to other methods.
+constexpr double kHardlyKnown = 0.5;   // [rad] of a turn of the pair; what it is in fact is a tenth of it or so.
+
+/// Its loose turn is.
+DirectionSolution movedBy(double way, const DirectionSolution& pair) {
+  DirectionSolution moved = pair;
+  Turn& loose = pair.first_loose ? moved.first : moved.second;
+  loose = turnBy(way) * loose;
+  moved.clamped = true;
+  return moved;
+}
 
 }  // namespace
 
@@ -143,29 +153,56 @@ void ParallelPlan::solvePair(const Question& question, const Root& root, Answer&
     if (pair.first_free) solutions.open |= bitOf(pair_axis_);
     if (pair.second_free) solutions.open |= bitOf(pair_axis_ + 1);
     const bool free = root.free || pair.first_free || pair.second_free;
-    solutions.loose = solutions.loose || (!free && pair.error > kMostError);
+    solutions.loose = solutions.loose || (!free && root.error + pair.tight_error > kMostError);
+    solutions.indistinct = solutions.indistinct || (!free && pair.error > kHardlyKnown);
     if (free || pair.error <= kTightError) {
       solvePlane(question, root, pair, root.error + pair.error, answer);
-    } else if (!solvePlane(question, root, pair, 0.0, answer) && !solveLoosely(question, root, pair, answer)) {
-      const int known = solutions.count;
-      solvePlane(question, root, pair, root.error + pair.error, answer);
-      for (int k = known; k < solutions.count; ++k) solutions.unlikely |= 1U << k;
+    } else if (!solvePlane(question, root, pair, 0.0, answer)) {
+      solveLoosely(question, root, pair, answer);
     }
   }
 }
 
-/// Near alignment one turn of the pair is hardly known: within its rounding it goes where the plane has a solution.
-bool ParallelPlan::solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair,
+/// Near alignment one turn of the pair is hardly known: within its rounding it goes where the plane has a solution, as
+/// far behind the end of the reach as that is away, where the elbow's two signs are apart. What it does not bring into
+/// reach is out of reach, but for the errors of the other turns.
+void ParallelPlan::solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair,
                                 Answer& answer) const {
-  const double most = std::min(pair.error, kPi);
-  for (const double share : {0.01, -0.01, 0.03, -0.03, 0.1, -0.1, 0.25, -0.25, 0.5, -0.5, 0.75, -0.75, 1.0, -1.0}) {
-    DirectionSolution moved = pair;
-    Turn& loose = pair.first_loose ? moved.first : moved.second;
-    loose = turnBy(share * most) * loose;
-    moved.clamped = true;
-    if (solvePlane(question, root, moved, 0.0, answer)) return true;
-  }
-  return false;
+  const double most = std::min(pair.error, 0.5 * kPi);  // What is farther is nearer to the other way to turn the pair.
+  const double way = wayIntoReach(question, root, pair);
+  if (solvePlane(question, root, movedBy(std::clamp(2.0 * way, -most, most), pair), 0.0, answer)) return;
+  ParallelSolutions& solutions = answer.solutions;
+  const int known = solutions.count;
+  const double carried = root.error + pair.tight_error;
+  solvePlane(question, root, movedBy(std::clamp(way, -most, most), pair), carried, answer);
+  for (int k = known; k < solutions.count; ++k) solutions.unlikely |= std::abs(way) > most ? 1U << k : 0U;
+}
+
+/// By the squared distance of the third parallel axis from the first as a function of the loose turn: a + b cos + c
+/// sin, with the same first two derivatives (exact where the turn's axis is parallel as well). To where it comes
+/// nearest to the reach if it does not come into it.
+double ParallelPlan::wayIntoReach(const Question& question, const Root& root, const DirectionSolution& pair) const {
+  const auto placeAt = [&](double way) {
+    const DirectionSolution moved = movedBy(way, pair);
+    Turn place;
+    Turn heading;
+    placeOf(question, root.turn, moved.first, moved.second, place, heading);
+    return Eigen::Vector2d(place.c, place.s);
+  };
+  const Eigen::Vector2d here = placeAt(0.0);
+  const Eigen::Vector2d ahead = placeAt(0.5 * kPi);
+  const Eigen::Vector2d behind = placeAt(-0.5 * kPi);
+  const Eigen::Vector2d slope = 0.5 * (ahead - behind);
+  const double first = here.dot(slope);
+  const double second = slope.squaredNorm() - here.dot(here - 0.5 * (ahead + behind));
+  const double distance = here.norm();
+  const double goal = std::clamp(distance, plane_->least(), plane_->most());
+  const double half = 0.5 * (goal - distance) * (goal + distance);
+  if (half == 0.0) return 0.0;
+  // first sin + second (1 - cos) = half
+  const double radicand = first * first + (2.0 * second - half) * half;
+  if (radicand < 0.0) return half > 0.0 ? std::atan2(first, -second) : std::atan2(-first, second);
+  return 2.0 * std::atan(half / (first + std::copysign(std::sqrt(radicand), first)));
 }
 
 /// Where the other joints leave the third parallel axis from the first, and the heading behind it.
@@ -242,6 +279,7 @@ void ParallelPlan::solve(const Pose& target, const double* preferred, ParallelSo
   solutions.clamped = 0;
   solutions.unlikely = 0;
   solutions.loose = false;
+  solutions.indistinct = false;
   const Question question = questionOf(target, preferred);
   const Roots roots = singleRoots(question);
   Answer answer(solutions);

@@ -15,8 +15,9 @@ struct DirectionSolution {
   bool first_free = false;  ///< The goal is in line with axis 1: any turn about it does; `first` has the preferred one.
   bool second_free = false;  ///< The start is in line with axis 2.
   int sign = 0;              ///< Of the triple product of axis 1, axis 2 and the direction between; 0: two meet.
-  double error = 0.0;        ///< [rad] by which rounding and the inputs' error may move the turns.
-  bool first_loose = false;  ///< It is the first that they move so far (goal nearly in line), else the second.
+  double error = 0.0;        ///< [rad] by which rounding and the inputs' error may move the looser of the turns.
+  double tight_error = 0.0;  ///< [rad] The same of the other one.
+  bool first_loose = false;  ///< The looser one is the first (goal nearly in line), else the second.
   bool clamped = false;      ///< Exists only if the inputs are moved within their error.
 };
 

@@ -18,10 +18,12 @@ struct ParallelSolutions : PlanSolutions {
   unsigned open = 0;     ///< Bit i: joint i turned out free in some stage, whether or not the stages behind it have a
                          ///< solution at its preferred value: there may be a continuum.
   unsigned clamped = 0;  ///< Bit k: solution k exists only if rounding is moved in its favour; it may prove to be none.
-  unsigned unlikely = 0;  ///< Bit k: clamped, where every move that rounding allows was tried; if it is none, none is
-                          ///< missing.
-  bool loose = false;     ///< A pair near alignment is known so badly that its error was not carried on in full: where
-                          ///< others are clamped, one may be missing.
+  unsigned unlikely = 0;    ///< Bit k: clamped, where every move that rounding allows was tried; if it is none, none is
+                            ///< missing.
+  bool loose = false;       ///< A turn is known so badly that its error was not carried on in full: where others are
+                            ///< clamped, one may be missing.
+  bool indistinct = false;  ///< A turn of the pair is hardly known: solutions may be places on a curve that the pose
+                            ///< does not tell from each other.
 };
 
 /// Inverse kinematics for whole poses of six revolute joints, three neighbouring ones with parallel axes and two
@@ -75,7 +77,8 @@ class ParallelPlan {
   bool solvePlane(const Question& question, const Root& root, const DirectionSolution& pair, double error,
                   Answer& answer) const;
   void takeAngles(const Question& question, Answer& answer) const;
-  bool solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair, Answer& answer) const;
+  void solveLoosely(const Question& question, const Root& root, const DirectionSolution& pair, Answer& answer) const;
+  double wayIntoReach(const Question& question, const Root& root, const DirectionSolution& pair) const;
   ParallelSheet sheetOf(const Question& question, const Root& root, const DirectionSolution& pair) const;
   void directions(const Question& question, const Turn& single, Vector3& start, Vector3& goal) const;
   double preferredAngle(const Question& question, int axis) const;
