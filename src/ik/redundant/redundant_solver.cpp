@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "screwline/spatial/rotation.h"
+#include "usual_rank.h"
 
 namespace screwline {
 namespace {
@@ -76,17 +77,20 @@ std::optional<RedundantSolver> RedundantSolver::compile(const SerialChain& chain
   if (chain.hasMimic() || chain.size() != kRedundantJoints) return std::nullopt;
   // A branch that more signs tell apart has simpler equations: quadratics, not a quartic.
   std::optional<RedundantSolver> best;
+  const auto leads = [&chain](int joint) { return usualRank(chain, joint) == 6; };
   for (int joint : {kLast, 0}) {
+    if (!leads(joint)) continue;
     const std::optional<SixJointSolver> others = closedFormWithout(chain, joint);
     if (others && (!best || others->branchParts().size() > best->others_.branchParts().size()))
       best = RedundantSolver(chain, joint, *others);
   }
   for (int joint = 1; joint < kLast && !best; ++joint) {
+    if (!leads(joint)) continue;
     if (const std::optional<SixJointSolver> others = closedFormWithout(chain, joint))
       best = RedundantSolver(chain, joint, *others);
   }
   for (int joint : {kLast, 0}) {
-    if (best) break;
+    if (best || !leads(joint)) continue;
     if (const std::optional<SixJointSolver> others = SixJointSolver::compileAlgebraic(lockedChain(chain, joint, 0.0)))
       best = RedundantSolver(chain, joint, *others);
   }

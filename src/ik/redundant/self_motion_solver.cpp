@@ -13,14 +13,14 @@
 #include "reach_margin.h"
 #include "screwline/ik/numerical/numerical_solver.h"
 #include "screwline/kinematics/singularity.h"
+#include "usual_rank.h"
 
 namespace screwline {
 namespace {
 
 constexpr int kStarts = 96;        // Descents for a chain without a closed form.
 constexpr int kRescueStarts = 64;  // Descents where slices found nothing within limits.
-constexpr int kRankTrials = 8;
-constexpr double kNear = 1e-6;  // [rad, lengths] A search's result is this near to the solution set at most.
+constexpr double kNear = 1e-6;     // [rad, lengths] A search's result is this near to the solution set at most.
 
 std::vector<VectorX> searched(const SerialChain& chain, const SelfMotionQuestion& question, int restarts, int count,
                               bool honour_limits) {
@@ -95,18 +95,6 @@ void putFirst(const PoseCurve& pose, const Vector7& seed, std::vector<SelfMotion
   if (best != curves.end()) std::rotate(curves.begin(), best, best + 1);
 }
 
-/// Where the tip moves in less than six dimensions solutions are surfaces, not curves.
-bool isAlwaysSingular(const SerialChain& chain) {
-  Matrix6X J(6, kRedundantJoints);
-  for (int k = 1; k <= kRankTrials; ++k) {
-    Vector7 q;
-    for (int i = 0; i < kRedundantJoints; ++i) q[i] = std::remainder(k * (0.7 + 0.31 * i), kPi);
-    geometricJacobian(chain, q, J);
-    if (rankOf(singularValues(J), jacobianNoise(J)) == 6) return false;
-  }
-  return true;
-}
-
 bool hasInterval(const SelfMotionSet& set) {
   return std::any_of(set.curves.begin(), set.curves.end(),
                      [](const SelfMotionCurve& curve) { return !curve.intervals.empty(); });
@@ -137,7 +125,7 @@ SelfMotionSolver::SelfMotionSolver(const SerialChain& chain)
 }
 
 std::optional<SelfMotionSolver> SelfMotionSolver::compile(const SerialChain& chain) {
-  if (chain.size() != kRedundantJoints || chain.hasMimic() || isAlwaysSingular(chain)) return std::nullopt;
+  if (chain.size() != kRedundantJoints || chain.hasMimic() || usualRank(chain) < 6) return std::nullopt;
   return SelfMotionSolver(chain);
 }
 
