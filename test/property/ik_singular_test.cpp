@@ -121,6 +121,17 @@ TEST(AlmostSingular, ADoubleRootIsNotGivenUpForOthersBesideIt) {
   EXPECT_TRUE(verdict.isLawful() && !verdict.lost) << verdict.message;
 }
 
+/// The polynomial that elimination leaves should touch zero here, and stays 400 times its noise away.
+TEST(AlmostSingular, ADoubleRootIsMetAlsoWhereThePolynomialIsWorseThanItsNoise) {
+  const test::ShippedRobot robot = test::shippedRobot(SCREWLINE_SOURCE_DIR, "jaco2_6dof");
+  const InverseKinematics ik(robot.chain, robot.task);
+  VectorX q(6);
+  q << 1.1547307247902285, 2.7353058544696474, 2.470465270089762, 2.3410746049231284, 2.797793276948771,
+      -1.7239447501091896;
+  const GateVerdict verdict = IkGate(ik, q, true).judge(VectorX::LinSpaced(6, 8e-4, -5e-4));
+  EXPECT_TRUE(verdict.isLawful() && !verdict.lost) << verdict.message;
+}
+
 /// Places from which Newton's method goes to and fro beside a root that rounding has taken out of the real numbers
 /// (checked with 64 bits of mantissa: none is there), and two roots between which the pose is met to rounding.
 TEST(AlmostSingular, WhatThePoseDoesNotTellApartIsOne) {

@@ -8,7 +8,7 @@
 namespace screwline {
 namespace {
 
-constexpr double kNoiseFactor = 300.0;    ///< Noise of a value, over that of a coefficient.
+constexpr double kNoiseFactor = 1000.0;   ///< Noise of a value, over that of a coefficient.
 constexpr double kNoiseFloor = 1e-15;     ///< Of a coefficient.
 constexpr double kFinestInterval = 1e-7;  ///< [rad] half-width
 constexpr int kMaxIntervals = 20000;      ///< Looked at; more are met only where the polynomial is noise.
