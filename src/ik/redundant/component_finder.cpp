@@ -17,6 +17,8 @@ constexpr double kRounding = 1e-13;   // Of residuals; over the gain, of solutio
 constexpr double kCubicError = 2e-3;  // [rad] of the uncorrected curve between nodes, many times over.
 constexpr std::size_t kMostCrossings = 32;
 constexpr std::size_t kMostNodes = 5000;  // Of all curves: bounds the time where rounding leaves their course open.
+constexpr double kSmallLoop = 0.01;       // [rad] of arc.
+constexpr double kFirmGain = 1e-3;        // Of the third weakest direction.
 constexpr double kSameCrossing = 1e-3;    // [rad]
 constexpr int kCrossingWays = 12;         // Directions in the plane of a crossing's tangents, half a turn of them.
 constexpr double kCrossingStep = 0.02;    // [rad] from the crossing, where its branches are apart.
@@ -172,6 +174,9 @@ bool ComponentFinder::addStart(const Vector7& q, double reach) {
   SelfMotionCurve curve;
   if (!traceCurve(pose_, node.q, curve)) return false;
   nodes_ += curve.nodes.size();
+  // A small loop is almost a point; where a third direction is weak, another may lie between the same slices.
+  const bool small = curve.nodes.back().arc < kSmallLoop;
+  if (small && pose_.secondOrder(curve.nodes.front().q).next_gain < kFirmGain) ++unexplained_;
   coverGrid(curve);
   std::vector<Vector7> crossings = curve.crossings;
   for (const Vector7& near : nearCrossings(pose_, curve)) crossings.push_back(near);

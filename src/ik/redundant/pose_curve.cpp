@@ -113,7 +113,8 @@ PoseCurve::SecondOrder PoseCurve::secondOrder(const Vector7& q) {
   const Eigen::Matrix<double, kRedundantJoints, 2> plane = svd.matrixV().rightCols<2>();
   form.plane = unit_.asDiagonal() * plane;
   form.gain = svd.singularValues()[5];
-  if (svd.singularValues()[4] < kSecondWeakest) return form;
+  form.next_gain = svd.singularValues()[4];
+  if (form.next_gain < kSecondWeakest) return form;
   const Vector6 away = svd.matrixU().col(5);
   Eigen::Matrix2d Q;
   for (int k = 0; k < 2; ++k) {

@@ -49,6 +49,7 @@ class PoseCurve {
     Eigen::Matrix<double, kRedundantJoints, 2> plane;    ///< The two directions, of norm 1 and across each other.
     bool is_known = false;                               ///< Not where a third direction is as weak.
     double gain = 0.0;                                   ///< Least singular value of the Jacobian.
+    double next_gain = 0.0;                              ///< The one above.
     Eigen::Vector2d slopes{0.0, 0.0};                    ///< Of the error in that direction, along `vectors`.
     Eigen::Vector2d values{0.0, 0.0};                    ///< Of the form, the smaller size first.
     Eigen::Matrix<double, kRedundantJoints, 2> vectors;  ///< Directions that have them, of norm 1.
