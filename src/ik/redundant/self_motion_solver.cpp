@@ -19,6 +19,7 @@ namespace screwline {
 namespace {
 
 constexpr int kStarts = 96;        // Descents for a chain without a closed form.
+constexpr int kFewStarts = 24;     // Beside slices, for curves that no margin of reach tells of.
 constexpr int kRescueStarts = 64;  // Descents where slices found nothing within limits.
 constexpr double kNear = 1e-6;     // [rad, lengths] A search's result is this near to the solution set at most.
 
@@ -188,6 +189,9 @@ void SelfMotionSolver::follow(const SelfMotionQuestion& question, PoseCurve& pos
     finder.addChosenValues();
     if (margin_) finder.addExtrema(*margin_);
     finder.finishSheets();
+    if (!margin_) {
+      for (const VectorX& q : searched(chain_, question, kFewStarts, 0, false)) finder.addStart(q, kNear);
+    }
   } else {
     for (const VectorX& q : searched(chain_, question, kStarts, 0, false)) finder.addStart(q, kNear);
   }
