@@ -76,7 +76,7 @@ class RedundantArmMaker : public ArmMaker {
   static constexpr int kClasses = 6;
 
   /// 0: spherical wrist, any four turns before it; 1: spherical shoulder; 2: S-R-S; 3: a rail under six joints with a
-  /// wrist; 4: no two axes meet.
+  /// wrist; 4: no two axes meet; 5: three parallel axes, and two that meet, on a rail.
   SerialChain makeArm(int kind, bool limited) {
     std::vector<Axis> axes;
     const Vector3 center = vector(0.7);

@@ -61,11 +61,12 @@ class ReachMargin;
 /// Self-motions of a chain of seven joints for whole poses: every connected component of the solution set as a curve
 /// (Burdick 1989), cut exactly by joint limits. Where one joint given leaves a closed form, or any six others where it
 /// is the first or the last, slices of all branches at 256 values of it (64 of a middle joint), and at right angles and
-/// zero, find the curves; each curve is followed by predictor and corrector along the null space, so folds, where
-/// branches meet and the parameter turns back, are points as any other. Else numerical search finds the starts. S-R-S
-/// arms (three axes that meet, an elbow, three that meet, neighbours at right angles) need none of this: their curves
-/// are circles of the arm angle in closed form, none is missed, and axes in line and a straight elbow are told with all
-/// of their dimensions, and the surfaces that rounding makes of curves beside them.
+/// zero, find the curves, with a few searched starts where no margin of reach is known; each curve is followed by
+/// predictor and corrector along the null space, so folds, where branches meet and the parameter turns back, are points
+/// as any other. Else numerical search finds the starts. S-R-S arms (three axes that meet, an elbow, three that meet,
+/// neighbours at right angles) need none of this: their curves are circles of the arm angle in closed form, none is
+/// missed, and axes in line and a straight elbow are told with all of their dimensions, and the surfaces that rounding
+/// makes of curves beside them.
 ///
 /// Resolution. A curve may be missed where the parameter joint moves by less than 0.025 rad (0.1 of a middle joint; a
 /// 256th of the range in which a slide can reach the pose) over the whole of it, between two slices. Where the point
@@ -74,9 +75,9 @@ class ReachMargin;
 /// they do not, and `complete` holds to this resolution only. Between nodes joint values are monotone but for pairs of
 /// extrema less than 1e-5 rad of arc length apart, so a limit may be overrun unnoticed by 1e-9 rad. Where curves come
 /// near to each other, or are loops about a single configuration, they are conics to second order: whether they cross
-/// or turn off is decided by the conic, to an error of 1e-14. Where even that is rounding, and members for any values of
-/// two joints solve the pose to 1e-10, the surface is told as one; else `complete` is false. Immutable; all functions
-/// allocate and may be called from many threads.
+/// or turn off is decided by the conic, to an error of 1e-14. Where even that is rounding, and members for any values
+/// of two joints solve the pose to 1e-10, the surface is told as one; else `complete` is false. Immutable; all
+/// functions allocate and may be called from many threads.
 class SelfMotionSolver {
  public:
   /// Empty where the chain has not seven joints, or mimic joints, or moves its tip in less than six dimensions: its
