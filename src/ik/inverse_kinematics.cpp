@@ -49,7 +49,7 @@ struct InverseKinematics::Implementation {
       : chain(chain_in),
         task(task_in),
         plan(planFor(chain, task.rotationCount() == 3 ? wholeRowsOf(task) : task)),
-        almost_singular(kAlmostSingular * std::pow(chain.characteristicLength(), task.translationCount())) {
+        meet_below(kAlmostSingular * std::pow(chain.characteristicLength(), task.translationCount())) {
     if (plan) {
       method = "closed form: " + plan->plan.method();
       if (plan->task.size() < task.size()) method += "; the other rows of the task are checked";
@@ -57,7 +57,7 @@ struct InverseKinematics::Implementation {
     }
     parallel = parallelMethodFor(chain, task);
     if (parallel) {
-      almost_singular.reset();
+      meet_below.reset();
       method = "closed form: " + parallel->plan.method();
       return;
     }
@@ -113,8 +113,8 @@ struct InverseKinematics::Implementation {
   std::optional<SelfMotionSolver> redundant;
   std::optional<CompletedSelfMotion> open_self_motion;
   std::string method;
-  bool moves_everywhere = false;          ///< Every solution of a searched chain is a member of a continuum.
-  std::optional<double> almost_singular;  ///< Manipulability below which solutions may meet that are not both found.
+  bool moves_everywhere = false;     ///< Every solution of a searched chain is a member of a continuum.
+  std::optional<double> meet_below;  ///< Manipulability below which solutions may meet that are not both found.
 };
 
 std::vector<Candidate> InverseKinematics::Implementation::candidates(const IkRequest& request,
@@ -193,8 +193,7 @@ bool InverseKinematics::Implementation::keep(const IkRequest& request, std::vect
     if (chain.size() > task.size() && answer.self_motion.rows() == 0) describeRedundancy(chain, task, answer);
   }
   if (isExact() && chain.size() == task.size()) {
-    if (!completeAlmostSingular(chain, task, request.target, almost_singular, builder, answers))
-      result.indistinct = true;
+    if (!completeAlmostSingular(chain, task, request.target, meet_below, builder, answers)) result.indistinct = true;
     all = all && !result.indistinct;
   }
   for (IkAnswer& answer : answers) admit(request, std::move(answer), builder, result);
