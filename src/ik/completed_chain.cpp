@@ -9,8 +9,6 @@
 namespace screwline {
 namespace {
 
-constexpr int kMostLocked = 2;
-
 /// A locked joint's tilt from the axis that it meets. Not a right angle: at one it could come into line with the axis
 /// before that, which would make a continuum of an isolated solution.
 constexpr double kTilt = 0.25 * kPi;
@@ -33,8 +31,9 @@ Axis tilted(const Axis& axis, const Vector3& point) {
 
 /// Nowhere near any relation to the chain's axes.
 Axis skewed(const SerialChain& chain, int number) {
-  const Vector3 direction = rotationAbout(Vector3(0.6, 0.0, 0.8), 1.0 + number) * Vector3(0.48, 0.6, 0.64);
-  return revoluteAxis(direction, chain.home().p + 0.4 * chain.characteristicLength() * Vector3(0.5, -0.3, 0.7));
+  const Matrix3 turn = rotationAbout(Vector3(0.6, 0.0, 0.8), 1.0 + number);
+  const Vector3 offset = 0.4 * chain.characteristicLength() * (turn * turn * Vector3(0.5, -0.3, 0.7));
+  return revoluteAxis(turn * Vector3(0.48, 0.6, 0.64), chain.home().p + offset);
 }
 
 /// Sets of locked axes behind axes `before`, in front of `turn` where that is added.
@@ -57,9 +56,13 @@ std::vector<std::vector<Axis>> lockedAxes(const SerialChain& chain, int count, c
     sets.push_back({skewed(chain, 0)});
     return sets;
   }
-  const Vector3 x = anyPerpendicular(last.direction);
-  sets.push_back({revoluteAxis(x, foot), revoluteAxis(last.direction.cross(x), foot)});
-  sets.push_back({skewed(chain, 0), skewed(chain, 1)});
+  if (count == 2) {
+    const Vector3 x = anyPerpendicular(last.direction);
+    sets.push_back({revoluteAxis(x, foot), revoluteAxis(last.direction.cross(x), foot)});
+  }
+  std::vector<Axis> apart;
+  for (int i = 0; i < count; ++i) apart.push_back(skewed(chain, i));
+  sets.push_back(apart);
   return sets;
 }
 
@@ -181,7 +184,7 @@ std::vector<CompletedChain> completions(const SerialChain& chain, const Task& ta
   const bool is_orientation = task.translationCount() == 0;
   std::vector<CompletedChain> result;
   if (locked > 0 && task.pointingAxis() >= 0) result.push_back(completed(chain, added));
-  if (locked <= kMostLocked && (locked == 0 || (!is_orientation && chain.size() >= 3))) {
+  if (locked == 0 || !is_orientation) {
     for (const std::vector<Axis>& axes : lockedAxes(chain, locked, added.turn)) {
       added.locked = axes;
       result.push_back(completed(chain, added));

@@ -30,9 +30,9 @@ struct CompletedChain {
 Task wholeRowsOf(const Task& task);
 
 /// Ways to complete a chain for a task, those first that are likely to give it a closed form: first without locked
-/// joints, which leaves more rows than joints; then with as many as are missing (two at most), placed where they meet
-/// the chain's last axes. None where there are joints to spare, where nothing has to be added, or where the task has
-/// one of rx ry rz only, or two of them and positions that a turn about the third moves.
+/// joints, which leaves more rows than joints; then with as many as are missing, one or two of them placed where they
+/// meet the chain's last axes. None where there are joints to spare, where nothing has to be added, or where the task
+/// has one of rx ry rz only, or two of them and positions that a turn about the third moves.
 std::vector<CompletedChain> completions(const SerialChain& chain, const Task& task);
 
 /// The chain with what the task leaves open added, where that makes one joint more than a whole pose has rows: then the
