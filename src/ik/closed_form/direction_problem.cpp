@@ -59,6 +59,8 @@ void DirectionProblem::solve(const Vector3& start, const Vector3& goal, double e
     solution.first_free = free && by_first;
     solution.second_free = free && !by_first;
     solution.error = (kRounding + error) / least_height;
+    // One that stands for two is off by as much as they may be apart.
+    if (one && !free) solution.error = std::max(solution.error, std::sqrt((kNoSlack + error) * (whole + part)) / whole);
     solution.tight_error = std::max(solution.error * whole, kRounding + error) / std::max(goal_sine, start_sine);
     const Vector3 high = (sign * height) * across_;
     // Across each axis: where the direction stands between the turns, and where it comes from or goes to.
