@@ -38,7 +38,7 @@ void solveAt(benchmark::State& state, const SerialChain& chain) {
   RedundantSolutions solutions;
   for (auto _ : state) {
     const double value = arm.configurations[arm.index % 256][joint];
-    arm.solver.closedForm()->solveAt(arm.next().target, value, Vector7::Zero(), solutions);
+    arm.solver.oneGiven()->solveAt(arm.next().target, value, Vector7::Zero(), solutions);
     benchmark::DoNotOptimize(solutions);
   }
 }
@@ -46,7 +46,7 @@ void solveAt(benchmark::State& state, const SerialChain& chain) {
 /// The plan alone, on the poses that solveAt() hands to it.
 void planAlone(benchmark::State& state, const SerialChain& chain) {
   Case arm(chain);
-  const ClosedFormPlan& plan = *arm.solver.closedForm()->others().plan();
+  const ClosedFormPlan& plan = *arm.solver.oneGiven()->others().plan();
   const std::array<double, kMaxPlanJoints> preferred{};
   std::vector<Pose> targets;
   for (std::size_t i = 0; i < 256; ++i) {

@@ -85,7 +85,7 @@ struct InverseKinematics::Implementation {
     return redundant ? &*redundant : (open_self_motion ? &open_self_motion->solver() : nullptr);
   }
   bool isExact() const {
-    return plan || parallel || completed || algebraic || (selfMotions() != nullptr && selfMotions()->closedForm());
+    return plan || parallel || completed || algebraic || (selfMotions() != nullptr && selfMotions()->oneGiven());
   }
 
   std::vector<Candidate> candidates(const IkRequest& request, const SolutionBuilder& builder, bool doubted,
@@ -337,8 +337,8 @@ std::vector<std::string> InverseKinematics::branches() const {
   if (self.parallel) return branchNamesOf(self.parallel->plan.branchParts());
   if (self.completed && self.completed->branchParts() != nullptr) return branchNamesOf(*self.completed->branchParts());
   const SelfMotionSolver* motions = self.selfMotions();
-  const bool named = motions != nullptr && motions->closedForm();
-  return named ? branchNamesOf(motions->closedForm()->others().branchParts()) : std::vector<std::string>();
+  const bool named = motions != nullptr && motions->oneGiven();
+  return named ? branchNamesOf(motions->oneGiven()->others().branchParts()) : std::vector<std::string>();
 }
 
 std::optional<InverseOutline> InverseKinematics::outline() const {
@@ -346,7 +346,7 @@ std::optional<InverseOutline> InverseKinematics::outline() const {
   if (self.plan && self.plan->task.size() == self.task.size()) return self.plan->plan.outline();
   if (self.parallel) return self.parallel->plan.outline();
   if (self.completed) return self.completed->outline();
-  return self.redundant && self.redundant->closedForm() ? self.redundant->closedForm()->outline() : std::nullopt;
+  return self.redundant && self.redundant->oneGiven() ? self.redundant->oneGiven()->outline() : std::nullopt;
 }
 
 /// Candidates into the list; false where there was none.

@@ -189,7 +189,7 @@ TEST_P(RedundantLaws, DenseSamplesOfTheParameterFindTheSameIntervals) {
   for (int trial = 0; trial < 2; ++trial) {
     const SerialChain chain = make(true);
     const std::optional<SelfMotionSolver> solver = SelfMotionSolver::compile(chain);
-    const RedundantSolver& closed_form = *solver->closedForm();
+    const RedundantSolver& one_given = *solver->oneGiven();
     const int joint = solver->parameterJoint();
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
     SelfMotionQuestion question;
@@ -198,7 +198,7 @@ TEST_P(RedundantLaws, DenseSamplesOfTheParameterFindTheSameIntervals) {
     int wrong = 0;
     for (double value = -kPi; value < kPi; value += 1e-3) {
       RedundantSolutions solutions;
-      closed_form.solveAt(question.target, value, Vector7::Zero(), solutions);
+      one_given.solveAt(question.target, value, Vector7::Zero(), solutions);
       int sampled = 0;
       int bordering = 0;
       for (const RedundantSolution& solution : solutions) {

@@ -172,7 +172,7 @@ SelfMotionAnswers SelfMotionSolver::answer(const SelfMotionQuestion& question) c
 SelfMotionAnswers SelfMotionSolver::answerAt(const SelfMotionQuestion& question, double value) const {
   const Vector7 seed = seedOf(chain_, question);
   RedundantSolutions solutions;
-  closed_form_->solveAt(question.target, value, seed, solutions);
+  one_given_->solveAt(question.target, value, seed, solutions);
   PoseCurve pose = poseCurve(question.target);
   SelfMotionAnswers result;
   result.complete = solutions.complete;
@@ -186,10 +186,10 @@ SelfMotionAnswers SelfMotionSolver::answerAt(const SelfMotionQuestion& question,
     q = turnedTo(chain_, q, seed, question.ignore_limits);
     q[parameterJoint()] = value;
     answer.q = q;
-    answer.branch = closed_form_->branchName(solution);
+    answer.branch = one_given_->branchName(solution);
     answer.distance = (q - seed).norm();
     answer.within_limits = isWithinAll(chain_, q);
-    answer.singular = closed_form_->isDouble(solution) || solution.free != 0U;
+    answer.singular = one_given_->isDouble(solution) || solution.free != 0U;
     answer.self_motion.resize(0, kRedundantJoints);
     if (!answer.within_limits && !question.ignore_limits) {
       ++result.outside_limits;
@@ -203,7 +203,7 @@ SelfMotionAnswers SelfMotionSolver::answerAt(const SelfMotionQuestion& question,
 
 std::optional<VectorX> SelfMotionSolver::anyWithinLimits(const SelfMotionQuestion& question) const {
   const Vector7 seed = seedOf(chain_, question);
-  if (closed_form_) {
+  if (one_given_) {
     constexpr int kTries = 32;  // To each side of the seed.
     const int joint = parameterJoint();
     const JointLimits& limits = chain_.joint(joint).limits;
@@ -213,7 +213,7 @@ std::optional<VectorX> SelfMotionSolver::anyWithinLimits(const SelfMotionQuestio
     for (int k = 0; k <= 2 * kTries; ++k) {
       const double value = seed[joint] + step * ((k + 1) / 2) * (k % 2 == 0 ? 1.0 : -1.0);
       if (!isWithin(chain_.joint(joint), value, 0.0) && !(turns && limits.upper - limits.lower >= kTwoPi)) continue;
-      closed_form_->solveAt(question.target, value, seed, solutions);
+      one_given_->solveAt(question.target, value, seed, solutions);
       for (const RedundantSolution& solution : solutions) {
         const Vector7 q = turnedTo(chain_, solution.q, seed, false);
         if (isWithinAll(chain_, q)) return VectorX(chain_.clamped(q));

@@ -18,7 +18,7 @@
 namespace screwline {
 namespace {
 
-constexpr int kStarts = 96;        // Descents for a chain without a closed form.
+constexpr int kStarts = 96;        // Descents where there are no slices.
 constexpr int kFewStarts = 24;     // Beside slices, for curves that no margin of reach tells of.
 constexpr int kRescueStarts = 64;  // Descents where slices found nothing within limits.
 constexpr double kNear = 1e-6;     // [rad, lengths] A search's result is this near to the solution set at most.
@@ -33,7 +33,7 @@ std::vector<VectorX> searched(const SerialChain& chain, const SelfMotionQuestion
   return search(chain, Task(), question.target, {seedOf(chain, question)}, options).solutions;
 }
 
-/// Names each arc by the branch that the closed form finds half-way.
+/// Names each arc by the branch that its slice half-way has.
 void nameArcs(PoseCurve& pose, const RedundantSolver& solver, const Pose& target, SelfMotionCurve& curve) {
   RedundantSolutions solutions;
   for (SelfMotionArc& arc : curve.arcs) {
@@ -63,13 +63,13 @@ bool isUnbounded(const SerialChain& chain, const SelfMotionCurve& curve) {
   return isFar(curve.nodes.front()) && isFar(curve.nodes.back());
 }
 
-void conclude(const SerialChain& chain, bool closed_form, SelfMotionSet& set) {
+void conclude(const SerialChain& chain, bool has_slices, SelfMotionSet& set) {
   const bool broken = std::any_of(set.curves.begin(), set.curves.end(), [&](const SelfMotionCurve& curve) {
     return !curve.closed && !isUnbounded(chain, curve);
   });
   const bool crossing = std::any_of(set.curves.begin(), set.curves.end(),
                                     [](const SelfMotionCurve& curve) { return !curve.crossings.empty(); });
-  if (!closed_form) {
+  if (!has_slices) {
     set.note = "curves that no start of the numerical search met are missing";
   } else if (!set.complete) {
     if (set.note.empty()) set.note = "a slice has solutions that no curve explains";
@@ -114,15 +114,15 @@ SelfMotionNode nodeAt(const SelfMotionCurve& curve, int index) {
 }
 
 SelfMotionSolver::SelfMotionSolver(const SerialChain& chain)
-    : chain_(chain), closed_form_(RedundantSolver::compile(chain)) {
-  if (closed_form_) {
-    const std::optional<ReachMargin> margin = ReachMargin::compile(chain, closed_form_->parameterJoint());
+    : chain_(chain), one_given_(RedundantSolver::compile(chain)) {
+  if (one_given_) {
+    const std::optional<ReachMargin> margin = ReachMargin::compile(chain, one_given_->parameterJoint());
     if (margin) margin_ = std::make_shared<const ReachMargin>(*margin);
   }
   if (const std::optional<ArmCircle> arm = ArmCircle::compile(chain)) arm_ = std::make_shared<const ArmCircle>(*arm);
-  method_ = closed_form_ ? closed_form_->method() + (arm_ ? ", self-motions by the arm angle"
-                                                          : ", self-motions followed along the null space")
-                         : "numerical search for starts, self-motions followed along the null space";
+  method_ = one_given_ ? one_given_->method() +
+                             (arm_ ? ", self-motions by the arm angle" : ", self-motions followed along the null space")
+                       : "numerical search for starts, self-motions followed along the null space";
 }
 
 std::optional<SelfMotionSolver> SelfMotionSolver::compile(const SerialChain& chain) {
@@ -142,7 +142,7 @@ SelfMotionSet SelfMotionSolver::trace(const SelfMotionQuestion& question) const 
   } else {
     follow(question, pose, set);
   }
-  conclude(chain_, closed_form_.has_value(), set);
+  conclude(chain_, one_given_.has_value(), set);
   return set;
 }
 
@@ -159,29 +159,29 @@ void SelfMotionSolver::finish(const SelfMotionQuestion& question, PoseCurve& pos
     splitAtExtrema(pose, curves[i]);
     question.ignore_limits ? keepWhole(curves[i]) : cutByLimits(pose, curves[i]);
     splitAtFolds(curves[i], parameterJoint());
-    if (closed_form_) nameArcs(pose, *closed_form_, question.target, curves[i]);
+    if (one_given_) nameArcs(pose, *one_given_, question.target, curves[i]);
   }
 }
 
 void SelfMotionSolver::nameSheets(const Pose& target, std::vector<SelfMotionSheet>& sheets) const {
-  if (!closed_form_) return;
+  if (!one_given_) return;
   RedundantSolutions solutions;
   for (SelfMotionSheet& sheet : sheets) {
     const Vector7& q = sheet.member;
-    closed_form_->solveAt(target, q[parameterJoint()], q, solutions);
+    one_given_->solveAt(target, q[parameterJoint()], q, solutions);
     double least = std::numeric_limits<double>::infinity();
     for (const RedundantSolution& solution : solutions) {
       const double off = (0.5 * (solution.q - q)).array().sin().matrix().norm();
       if (off >= least) continue;
       least = off;
-      sheet.branch = closed_form_->branchName(solution);
+      sheet.branch = one_given_->branchName(solution);
     }
   }
 }
 
 /// Curves along the null space, from slices or from starts that are searched.
 void SelfMotionSolver::follow(const SelfMotionQuestion& question, PoseCurve& pose, SelfMotionSet& set) const {
-  const RedundantSolver* solver = closed_form_ ? &*closed_form_ : nullptr;
+  const RedundantSolver* solver = one_given_ ? &*one_given_ : nullptr;
   ComponentFinder finder(pose, solver, question.target);
   if (question.seed.size() > 0) finder.addStart(question.seed, kNear);
   if (solver != nullptr) {

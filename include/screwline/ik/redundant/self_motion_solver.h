@@ -84,10 +84,11 @@ class SelfMotionSolver {
   /// solutions are no curves.
   static std::optional<SelfMotionSolver> compile(const SerialChain& chain);
 
-  const std::optional<RedundantSolver>& closedForm() const { return closed_form_; }
+  /// What solves the six others where one joint is given; empty where no single joint leaves an exact method.
+  const std::optional<RedundantSolver>& oneGiven() const { return one_given_; }
   const std::string& method() const { return method_; }
-  /// -1 where no single joint leaves a closed form.
-  int parameterJoint() const { return closed_form_ ? closed_form_->parameterJoint() : -1; }
+  /// The joint to be given; -1 where there is none.
+  int parameterJoint() const { return one_given_ ? one_given_->parameterJoint() : -1; }
 
   /// The whole solution set. @pre target finite, R a rotation; seed of 7 finite values or empty.
   SelfMotionSet trace(const SelfMotionQuestion& question) const;
@@ -116,7 +117,7 @@ class SelfMotionSolver {
   void nameSheets(const Pose& target, std::vector<SelfMotionSheet>& sheets) const;
 
   SerialChain chain_;
-  std::optional<RedundantSolver> closed_form_;
+  std::optional<RedundantSolver> one_given_;
   std::shared_ptr<const ArmCircle> arm_;       ///< Null where the chain is no S-R-S arm.
   std::shared_ptr<const ReachMargin> margin_;  ///< Null where no such margin is known.
   std::string method_;
