@@ -117,6 +117,13 @@ struct Addition {
   std::optional<Axis> turn;
 };
 
+/// The name of the row that an axis along one of the base's moves.
+std::string rowAlong(const Axis& axis) {
+  int row = 0;
+  axis.direction.cwiseAbs().maxCoeff(&row);
+  return Task::fromRows({axis.prismatic ? row : 3 + row}).names().front();
+}
+
 CompletedChain completed(const SerialChain& chain, const Addition& added) {
   ChainDescription description = chain.description();
   description.axes.clear();
@@ -126,12 +133,10 @@ CompletedChain completed(const SerialChain& chain, const Addition& added) {
     description.axes.push_back(axis);
     description.joints.push_back(joint);
   };
-  const auto addFree = [&](const std::vector<Axis>& axes, const std::string& name) {
-    for (std::size_t i = 0; i < axes.size(); ++i) append(axes[i], freeJoint(axes[i], name + std::to_string(i + 1)));
-  };
-  addFree(added.open, "an open row ");
+  for (const Axis& axis : added.open) append(axis, freeJoint(axis, "the open " + rowAlong(axis)));
   for (int i = 0; i < chain.size(); ++i) append(chain.axes()[static_cast<std::size_t>(i)], chain.joint(i));
-  addFree(added.locked, "a locked joint ");
+  for (const Axis& axis : added.locked)
+    append(axis, freeJoint(axis, "a locked joint " + std::to_string(description.joints.size())));
   if (added.turn) append(*added.turn, freeJoint(*added.turn, "the tool's turn"));
   description.links = {{description.tip_link, static_cast<int>(description.axes.size()), description.home}};
   const int first = static_cast<int>(added.open.size());
