@@ -1,11 +1,18 @@
 #include "completed_self_motion.h"
 
+#include <Eigen/QR>
 #include <utility>
 
 #include "neighbour_sheet.h"
+#include "screwline/kinematics/jacobian.h"
 #include "self_motion_answers.h"
 
 namespace screwline {
+namespace {
+
+constexpr int kSteps = 3;
+
+}  // namespace
 
 CompletedSelfMotion::CompletedSelfMotion(const SerialChain& chain, const Task& task, CompletedChain completed,
                                          SelfMotionSolver solver)
@@ -27,15 +34,28 @@ VectorX CompletedSelfMotion::ownOf(const VectorX& whole) const {
   return whole.segment(completed_.first, completed_.own);
 }
 
+/// With the added joints where they bring the tip nearest to the target: a seed that solves the task lies on a curve.
+/// The turn's angle and the slides' ways are what Newton's first step takes them for.
+VectorX CompletedSelfMotion::wholeOf(const VectorX& own, const Pose& target) const {
+  VectorX q = VectorX::Zero(completed_.chain.size());
+  q.segment(completed_.first, completed_.own) = own;
+  Matrix6X J;
+  for (int k = 0; k < kSteps; ++k) {
+    const TaskError error = taskError(Task(), target, geometricJacobian(completed_.chain, q, J));
+    J.middleCols(completed_.first, completed_.own).setZero();
+    q += J.completeOrthogonalDecomposition().solve(error.twist);
+  }
+  return q;
+}
+
 std::vector<IkAnswer> CompletedSelfMotion::answers(const IkRequest& request, const SolutionBuilder& builder,
                                                    IkResult& result) const {
   SelfMotionQuestion question;
   question.target = request.target;
-  question.seed = VectorX::Zero(completed_.chain.size());
+  question.seed = wholeOf(builder.seed(), request.target);
   question.counts.setZero();
   question.ignore_limits = request.ignore_limits;
   question.timeout = request.timeout;
-  question.seed.segment(completed_.first, completed_.own) = builder.seed();
   question.counts.segment(completed_.first, completed_.own).setOnes();
   const SelfMotionAnswers found = solver_.answer(question);
   result.outside_limits = found.outside_limits;

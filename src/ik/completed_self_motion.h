@@ -32,6 +32,7 @@ class CompletedSelfMotion {
   std::optional<IkAnswer> answerOf(const SelfMotionAnswer& whole, const Pose& target,
                                    const SolutionBuilder& builder) const;
   VectorX ownOf(const VectorX& whole) const;
+  VectorX wholeOf(const VectorX& own, const Pose& target) const;
 
   SerialChain chain_;
   Task task_;
