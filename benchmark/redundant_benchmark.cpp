@@ -102,7 +102,8 @@ void registerAll() {
   }
   // No closed form with one joint given: elimination; and a plan for three parallel axes.
   test::RedundantArmMaker maker(kSeed);
-  for (const auto& [name, kind] : {std::pair("general", test::RedundantArmMaker::kGeneral), std::pair("rail_ur", 5)}) {
+  for (const auto& [name, kind] : {std::pair("general", test::RedundantArmMaker::kGeneral),
+                                   std::pair("rail_ur", test::RedundantArmMaker::kParallelOnRail)}) {
     const SerialChain chain = maker.makeArm(kind, true);
     benchmark::RegisterBenchmark((std::string("answer/") + name).c_str(), answerAll, chain);
     benchmark::RegisterBenchmark((std::string("any_within_limits/") + name).c_str(), anyWithinLimits, chain);

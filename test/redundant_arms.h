@@ -73,6 +73,7 @@ class RedundantArmMaker : public ArmMaker {
   using ArmMaker::ArmMaker;
 
   static constexpr int kGeneral = 4;
+  static constexpr int kParallelOnRail = 5;
   static constexpr int kClasses = 6;
 
   /// 0: spherical wrist, any four turns before it; 1: spherical shoulder; 2: S-R-S; 3: a rail under six joints with a

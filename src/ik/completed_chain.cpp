@@ -115,6 +115,9 @@ struct Addition {
   std::vector<Axis> open;
   std::vector<Axis> locked;
   std::optional<Axis> turn;
+  int own_turn = -1;  ///< The chain's own joint that turns the tool about its pointing axis; then none is added.
+
+  int freeCount() const { return static_cast<int>(open.size()) + (turn ? 1 : 0); }
 };
 
 /// The name of the row that an axis along one of the base's moves.
@@ -141,32 +144,25 @@ CompletedChain completed(const SerialChain& chain, const Addition& added) {
   description.links = {{description.tip_link, static_cast<int>(description.axes.size()), description.home}};
   const int first = static_cast<int>(added.open.size());
   const int last = static_cast<int>(description.joints.size()) - 1;
-  return {SerialChain(description),      added.rows, first, chain.size(), static_cast<int>(added.locked.size()),
-          added.turn ? last - first : -1};
+  const int locked = static_cast<int>(added.locked.size());
+  return {
+      SerialChain(description), added.rows, first, chain.size(), locked, added.turn ? last - first : added.own_turn};
 }
 
-/// The joints that may take any value.
-struct Opening {
-  Addition added;
-  int own_turn = -1;  ///< The chain's own joint that turns the tool about its pointing axis.
-
-  int freeCount() const { return static_cast<int>(added.open.size()) + (added.turn ? 1 : 0); }
-};
-
-/// Empty where the task with them is no whole pose, nor a whole orientation.
-std::optional<Opening> openingOf(const SerialChain& chain, const Task& task) {
+/// The joints that may take any value. Empty where the task with them is no whole pose, nor a whole orientation.
+std::optional<Addition> openingOf(const SerialChain& chain, const Task& task) {
   const std::optional<std::vector<Axis>> open = openAxes(task);
   if (chain.hasMimic() || task.rotationCount() < 2 || !open) return std::nullopt;
   const bool is_orientation = task.translationCount() == 0;
-  Opening opening;
-  opening.added.rows = is_orientation ? Task::fromRows({3, 4, 5}) : Task();
-  opening.added.open = *open;
+  Addition added;
+  added.rows = is_orientation ? Task::fromRows({3, 4, 5}) : Task();
+  added.open = *open;
   const int pointing = task.pointingAxis();
-  if (pointing < 0) return opening;
+  if (pointing < 0) return added;
   const Axis axis = revoluteAxis(chain.home().R.col(pointing), chain.home().p);
-  opening.own_turn = ownTurn(chain, axis, is_orientation);
-  if (opening.own_turn < 0) opening.added.turn = axis;
-  return opening;
+  added.own_turn = ownTurn(chain, axis, is_orientation);
+  if (added.own_turn < 0) added.turn = axis;
+  return added;
 }
 
 }  // namespace
@@ -181,33 +177,26 @@ Task wholeRowsOf(const Task& task) {
 }
 
 std::vector<CompletedChain> completions(const SerialChain& chain, const Task& task) {
-  std::optional<Opening> opening = openingOf(chain, task);
-  if (!opening) return {};
-  Addition& added = opening->added;
-  const int locked = added.rows.size() - chain.size() - opening->freeCount();
-  if (locked < 0 || (opening->freeCount() == 0 && opening->own_turn < 0 && locked == 0)) return {};
+  std::optional<Addition> added = openingOf(chain, task);
+  if (!added) return {};
+  const int locked = added->rows.size() - chain.size() - added->freeCount();
+  if (locked < 0 || (added->freeCount() == 0 && added->own_turn < 0 && locked == 0)) return {};
   const bool is_orientation = task.translationCount() == 0;
   std::vector<CompletedChain> result;
-  if (locked > 0 && task.pointingAxis() >= 0) result.push_back(completed(chain, added));
-  if (locked == 0 || !is_orientation) {
-    for (const std::vector<Axis>& axes : lockedAxes(chain, locked, added.turn)) {
-      added.locked = axes;
-      result.push_back(completed(chain, added));
-    }
-  }
-  for (CompletedChain& one : result) {
-    if (opening->own_turn >= 0) one.turn = opening->own_turn;
+  if (locked > 0 && task.pointingAxis() >= 0) result.push_back(completed(chain, *added));
+  if (locked > 0 && is_orientation) return result;
+  for (const std::vector<Axis>& axes : lockedAxes(chain, locked, added->turn)) {
+    added->locked = axes;
+    result.push_back(completed(chain, *added));
   }
   return result;
 }
 
 std::optional<CompletedChain> completionWithOneToSpare(const SerialChain& chain, const Task& task) {
-  const std::optional<Opening> opening = openingOf(chain, task);
-  if (!opening || opening->own_turn >= 0 || task.translationCount() == 0 || opening->freeCount() == 0) {
-    return std::nullopt;
-  }
-  if (chain.size() + opening->freeCount() != opening->added.rows.size() + 1) return std::nullopt;
-  return completed(chain, opening->added);
+  const std::optional<Addition> added = openingOf(chain, task);
+  if (!added || added->own_turn >= 0 || task.translationCount() == 0 || added->freeCount() == 0) return std::nullopt;
+  if (chain.size() + added->freeCount() != added->rows.size() + 1) return std::nullopt;
+  return completed(chain, *added);
 }
 
 }  // namespace screwline

@@ -20,8 +20,7 @@ struct CompletedChain {
   int first = 0;   ///< Where the chain's own joints begin,
   int own = 0;     ///< and how many they are.
   int locked = 0;  ///< How many of those behind them are locked.
-  int turn =
-      -1;  ///< The joint that turns the tool about its pointing axis, counted from the chain's own first; -1: none.
+  int turn = -1;   ///< The joint that turns the tool about its pointing axis, counted from `first`; -1: none.
 
   bool turnsByItself() const { return turn >= 0 && turn < own; }
 };

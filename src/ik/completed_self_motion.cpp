@@ -10,7 +10,7 @@
 namespace screwline {
 namespace {
 
-constexpr int kSteps = 3;
+constexpr int kSteps = 3;  // Of Newton's method: the second corrects rounding, where slides stand before a turn.
 
 }  // namespace
 
