@@ -50,26 +50,12 @@ VectorX CompletedSelfMotion::wholeOf(const VectorX& own, const Pose& target) con
 
 std::vector<IkAnswer> CompletedSelfMotion::answers(const IkRequest& request, const SolutionBuilder& builder,
                                                    IkResult& result) const {
-  SelfMotionQuestion question;
-  question.target = request.target;
+  SelfMotionQuestion question = questionOf(request);
   question.seed = wholeOf(builder.seed(), request.target);
   question.counts.setZero();
-  question.ignore_limits = request.ignore_limits;
-  question.timeout = request.timeout;
   question.counts.segment(completed_.first, completed_.own).setOnes();
-  const SelfMotionAnswers found = solver_.answer(question);
-  result.outside_limits = found.outside_limits;
-  result.complete = found.complete;
-  std::vector<IkAnswer> answers;
-  for (const SelfMotionAnswer& whole : found.answers) {
-    std::optional<IkAnswer> answer = answerOf(whole, request.target, builder);
-    if (answer) {
-      answers.push_back(std::move(*answer));
-    } else {
-      result.complete = false;
-    }
-  }
-  return answers;
+  const auto confirm = [&](const SelfMotionAnswer& whole) { return answerOf(whole, request.target, builder); };
+  return confirmedOf(solver_.answer(question), confirm, result);
 }
 
 /// Sheets are described anew: in distances between their members all joints have counted.

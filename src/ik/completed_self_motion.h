@@ -22,8 +22,7 @@ class CompletedSelfMotion {
   const SelfMotionSolver& solver() const { return solver_; }  ///< Of the completed chain.
   const std::string& method() const { return method_; }
 
-  /// Every self-motion as an answer of the chain. Sets what the result says of completeness and of curves outside the
-  /// limits; answers that are not confirmed to 1e-9 are left out, and the list is then not complete.
+  /// Every self-motion as an answer of the chain, as confirmedOf().
   std::vector<IkAnswer> answers(const IkRequest& request, const SolutionBuilder& builder, IkResult& result) const;
 
  private:

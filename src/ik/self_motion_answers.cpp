@@ -18,22 +18,21 @@ std::optional<IkAnswer> confirmed(const SelfMotionAnswer& found, int held, const
   return answer;
 }
 
-std::vector<IkAnswer> selfMotionAnswers(const SelfMotionSolver& solver, const IkRequest& request,
-                                        const SolutionBuilder& builder, IkResult& result) {
+SelfMotionQuestion questionOf(const IkRequest& request) {
   SelfMotionQuestion question;
   question.target = request.target;
   question.seed = request.seed;
   question.ignore_limits = request.ignore_limits;
   question.timeout = request.timeout;
-  const bool given = !request.redundancy.empty();
-  const int held = given ? solver.parameterJoint() : -1;
-  const SelfMotionAnswers found =
-      given ? solver.answerAt(question, request.redundancy.front()) : solver.answer(question);
+  return question;
+}
+
+std::vector<IkAnswer> confirmedOf(const SelfMotionAnswers& found, const Confirm& confirm, IkResult& result) {
   result.outside_limits = found.outside_limits;
   result.complete = found.complete;
   std::vector<IkAnswer> answers;
   for (const SelfMotionAnswer& one : found.answers) {
-    std::optional<IkAnswer> answer = confirmed(one, held, builder);
+    std::optional<IkAnswer> answer = confirm(one);
     if (answer) {
       answers.push_back(std::move(*answer));
     } else {
@@ -41,6 +40,17 @@ std::vector<IkAnswer> selfMotionAnswers(const SelfMotionSolver& solver, const Ik
     }
   }
   return answers;
+}
+
+std::vector<IkAnswer> selfMotionAnswers(const SelfMotionSolver& solver, const IkRequest& request,
+                                        const SolutionBuilder& builder, IkResult& result) {
+  const bool given = !request.redundancy.empty();
+  const int held = given ? solver.parameterJoint() : -1;
+  const SelfMotionQuestion question = questionOf(request);
+  const SelfMotionAnswers found =
+      given ? solver.answerAt(question, request.redundancy.front()) : solver.answer(question);
+  return confirmedOf(
+      found, [&](const SelfMotionAnswer& one) { return confirmed(one, held, builder); }, result);
 }
 
 }  // namespace screwline
